@@ -9,7 +9,8 @@ import os
 import struct
 import subprocess
 import tempfile
-from contextlib import contextmanager
+import time
+from contextlib import contextmanager, nullcontext
 from itertools import dropwhile, takewhile
 
 import bpy
@@ -47,21 +48,47 @@ class Preferences(bpy.types.AddonPreferences):
 
 
 def run_tool(operator, *arguments):
-    """Runs the tool and reports its warnings. Raises its error message if it fails."""
+    """Runs the tool, yielding its process meanwhile, and reports its warnings; returns what it printed.
+
+    Raises its error message if it fails.
+    """
+    if operator.is_cancelled:
+        raise RuntimeError("Cancelled")
     addon = bpy.context.preferences.addons.get(__name__)
     tool = bpy.path.abspath(addon.preferences.tool) if addon else "sweepface"
+    text_file = lambda: tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")
+    with text_file() as printed, text_file() as told:  # nobody reads meanwhile, so pipes could fill up
+        try:
+            process = subprocess.Popen([tool, *map(str, arguments)], stdin=subprocess.DEVNULL,
+                                       stdout=printed, stderr=told)
+        except OSError as error:
+            raise RuntimeError(f"Cannot run {tool} ({error.strerror}); say in the add-on's preferences "
+                               "where it is.") from error
+        try:
+            while process.returncode is None:
+                yield process
+                process.poll()
+        finally:
+            end(process)
+        printed.seek(0)
+        told.seek(0)
+        said = [line.removeprefix("sweepface: ") for line in told.read().splitlines() if line]
+        if process.returncode:
+            raise RuntimeError(" ".join(said) or f"{tool} ended with {process.returncode}.")
+        for line in said:
+            if "--head on" not in line:  # advises an option that the add-on does not have
+                operator.report({"WARNING"}, line.removeprefix("warning: "))
+        return printed.read()
+
+
+def end(process):
+    """Ends a process of the tool if it still runs."""
+    process.terminate()
     try:
-        run = subprocess.run([tool, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
-                             errors="replace", check=False)
-    except OSError as error:
-        raise RuntimeError(f"Cannot run {tool} ({error.strerror}); say in the add-on's preferences where it is.") from error
-    said = [line.removeprefix("sweepface: ") for line in run.stderr.splitlines() if line]
-    if run.returncode:
-        raise RuntimeError(" ".join(said) or f"{tool} ended with {run.returncode}.")
-    for line in said:
-        if "--head on" not in line:  # advises an option that the add-on does not have
-            operator.report({"WARNING"}, line.removeprefix("warning: "))
-    return run.stdout
+        process.wait(3)  # the tool takes up to two seconds to stop without leaving parts of files
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
 
 
 def path_of(operator):
@@ -69,19 +96,93 @@ def path_of(operator):
     return os.path.abspath(bpy.path.abspath(operator.filepath))
 
 
+WAITING = []  # the operators that wait for the tool while Blender goes on
+
+
+def tell_waiting():
+    """Shows in the status bar how long operators have been waiting."""
+    texts = [f"{each.bl_label}: {time.monotonic() - each.began:.0f} s" for each in WAITING]
+    for workspace in bpy.data.workspaces:  # the user may switch to another
+        workspace.status_text_set(", ".join(texts) + " (Esc cancels)" if texts else None)
+
+
+@contextmanager
+def waiting(operator, context):
+    """Has Blender call an operator from time to time, and shows that it waits."""
+    operator.began = time.monotonic()
+    timer = context.window_manager.event_timer_add(0.1, window=context.window)
+    WAITING.append(operator)
+    tell_waiting()
+    try:
+        yield
+    finally:
+        WAITING.remove(operator)
+        tell_waiting()
+        context.window_manager.event_timer_remove(timer)
+
+
 class ToolOperator:
-    """An operator that runs the tool and reports errors as sentences."""
+    """An operator that runs the tool and reports errors as sentences.
+
+    If the user starts it, Blender goes on while the tool runs; scripts wait for the result. `work` is
+    a generator that yields while the tool runs. Meanwhile it may keep names, but no data of Blender:
+    the user may change, delete or undo anything.
+    """
 
     bl_options = {"REGISTER", "UNDO"}
+    steps, is_cancelled, is_done = None, False, False
 
     def execute(self, context):
+        call = self.options
+        is_redone = call.is_repeat or call.is_repeat_last  # which Blender does at once or not at all
+        is_watched = call.is_invoke and not is_redone and not bpy.app.background
+        self.is_cancelled, self.steps = False, self.work_in_folder(context, is_watched)
+        result = self.step()
+        if is_watched and result == {"RUNNING_MODAL"}:
+            context.window_manager.modal_handler_add(self)
+            return result
+        while result == {"RUNNING_MODAL"}:
+            self.process.wait()
+            result = self.step()
+        return result
+
+    def work_in_folder(self, context, is_watched):
+        shown = waiting(self, context) if is_watched else nullcontext()
+        with tempfile.TemporaryDirectory() as folder, shown:
+            yield from self.work(context, folder)
+
+    def step(self):
+        """Goes on with the work if the tool has ended."""
         try:
-            with tempfile.TemporaryDirectory() as folder:
-                self.work(context, folder)
+            self.process = next(self.steps)
+        except StopIteration:
+            return {"FINISHED"}
         except (OSError, RuntimeError) as error:
-            self.report({"ERROR"}, str(error))
+            level, text = ("INFO", "Cancelled") if self.is_cancelled else ("ERROR", str(error))
+            self.report({level}, text)
             return {"CANCELLED"}
-        return {"FINISHED"}
+        return {"RUNNING_MODAL"}
+
+    def modal(self, _context, event):
+        if self.is_done:
+            # Blender crashes if its undo step falls into the stroke of a brush. Then only timers get here.
+            may_finish = event.type == "MOUSEMOVE" or event.value == "PRESS"
+            return {"FINISHED", "PASS_THROUGH"} if may_finish else {"PASS_THROUGH"}
+        if event.type == "ESC" and event.value == "PRESS" and not self.is_cancelled:
+            self.is_cancelled = True
+            self.process.terminate()
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        tell_waiting()
+        result = self.step()
+        self.is_done = result == {"FINISHED"}
+        return {"PASS_THROUGH"} if self.is_done else result
+
+    def cancel(self, _context):
+        """Called when Blender quits or opens a file, or the user chooses none."""
+        if self.steps:
+            self.steps.close()
 
 
 # ---- Meshes as the tool writes and reads them ----
@@ -212,6 +313,22 @@ def write_obj(path, places, faces, to_world):
         file.write(faces)
 
 
+def write_face(shown, neutral, folder):
+    """Writes an object as the OBJ `neutral`, and its shape keys into a folder; returns their OBJs by their names."""
+    places, shapes = shapes_of(shown)
+    to_world = UPRIGHT.inverted() @ shown.matrix_world
+    faces = faces_text(shown.data, to_world.determinant() < 0)
+    write_obj(neutral, places, faces, to_world)
+    os.mkdir(folder)
+    targets = {}
+    for name, shape in shapes.items():
+        if name.startswith(".") or "/" in name or "\\" in name:
+            raise RuntimeError(f"The shape key '{name}' cannot be the name of a target; rename it.")
+        targets[name] = os.path.join(folder, name + ".obj")
+        write_obj(targets[name], shape, faces, to_world)
+    return targets
+
+
 @contextmanager
 def objects_mode(shown):
     """Switches to object mode for a while: in edit mode Blender keeps an object's mesh elsewhere."""
@@ -242,17 +359,19 @@ class ImportSweep(ToolOperator, bpy.types.Operator, ImportHelper):
     def work(self, context, folder):
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
-        path = path_of(self)
-        names = json.loads(run_tool(self, "info", path, "--json"))["targets"]
+        path, meshes = path_of(self), os.path.join(folder, "face")
+        names = json.loads((yield from run_tool(self, "info", path, "--json")))["targets"]
         detail = ["--lod", self.lod] if self.lod else []
-        run_tool(self, "export", path, "-o", os.path.join(folder, "face"), "--quiet", *detail)
+        yield from run_tool(self, "export", path, "-o", meshes, "--quiet", *detail)
         name = os.path.splitext(os.path.basename(path))[0]
-        shown = bpy.data.objects.new(name, new_mesh(name, read_lines(os.path.join(folder, "face", "neutral.obj"))))
+        shown = bpy.data.objects.new(name, new_mesh(name, read_lines(os.path.join(meshes, "neutral.obj"))))
         context.collection.objects.link(shown)
         if names:
-            add_keys(shown, os.path.join(folder, "face", "expressions"), names)
+            add_keys(shown, os.path.join(meshes, "expressions"), names)
         shown.matrix_world = UPRIGHT
         shown[SOURCE] = path
+        if context.mode != "OBJECT":
+            return  # the user began to edit something else, which stays active
         for other in context.selected_objects:
             other.select_set(False)
         shown.select_set(True)
@@ -264,6 +383,7 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
 
     bl_idname = "export_scene.sweep"
     bl_label = "Export .sweep"
+    bl_options = {"UNDO"}  # not REGISTER, as Blender would stand still when the last operation is adjusted
     filename_ext = ".sweep"
 
     filter_glob: StringProperty(default="*.sweep", options={"HIDDEN"})
@@ -276,27 +396,15 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
         return context.active_object is not None and context.active_object.type == "MESH"
 
     def work(self, context, folder):
-        shown = context.active_object
+        shown, path = context.active_object, path_of(self)
+        name, neutral = shown.name, os.path.join(folder, "neutral.obj")
         with objects_mode(shown):
-            self.save(shown, folder)
-
-    def save(self, shown, folder):
-        neutral, shapes = shapes_of(shown)
-        to_world = UPRIGHT.inverted() @ shown.matrix_world
-        faces = faces_text(shown.data, to_world.determinant() < 0)
-        expressions = os.path.join(folder, "expressions")
-        os.mkdir(expressions)
-        write_obj(os.path.join(folder, "neutral.obj"), neutral, faces, to_world)
-        targets = []
-        for name, places in shapes.items():
-            if name.startswith(".") or "/" in name or "\\" in name:
-                raise RuntimeError(f"The shape key '{name}' cannot be the name of a target; rename it.")
-            targets.append(os.path.join(expressions, name + ".obj"))
-            write_obj(targets[-1], places, faces, to_world)
+            targets = write_face(shown, neutral, os.path.join(folder, "expressions"))
         options = (["--pack"] if self.pack else []) + (["--tolerance", self.tolerance] if self.tolerance else [])
-        said = run_tool(self, "convert", os.path.join(folder, "neutral.obj"), *targets, "-o", path_of(self), *options)
-        shown[SOURCE] = path_of(self)
-        shown[TARGETS] = json.dumps({name: name for name in shapes})
+        said = yield from run_tool(self, "convert", neutral, *targets.values(), "-o", path, *options)
+        if shown := bpy.data.objects.get(name):
+            shown[SOURCE] = path
+            shown[TARGETS] = json.dumps({target: target for target in targets})
         self.report({"INFO"}, said.splitlines()[-1])
 
 
@@ -486,9 +594,14 @@ def show(key, times, values, first, rate):
     key.slider_min, key.slider_max = max(min(key.slider_min, *heights), -10), min(max(key.slider_max, *heights), 10)
 
 
-def check_curves(keys):
-    """Refuses F-curves that are locked, or have modifiers, so that their keys alone do not define them."""
-    for name, key in keys.items():
+def check_movable(shown):
+    """Refuses shape keys that are linked from another file, or that their keyframes alone do not move."""
+    data = shown.data.shape_keys.animation_data
+    if shown.library or shown.data.library:
+        raise RuntimeError(f"{shown.name} is linked from another file; make it local.")
+    if data and (data.use_tweak_mode or any(track.strips and not track.mute for track in data.nla_tracks)):
+        raise RuntimeError(f"The shape keys of {shown.name} are moved by NLA strips; bake or mute them.")
+    for name, key in keys_of(shown).items():
         if not (curve := curve_of(key)):
             continue
         if curve.lock or (curve.group and curve.group.lock):
@@ -497,30 +610,34 @@ def check_curves(keys):
             raise RuntimeError(f"The F-curve of {name} has modifiers; apply or remove them.")
 
 
-def check_action(shown):
-    """Refuses shape keys that are linked from another file, or moved by NLA strips."""
-    data = shown.data.shape_keys.animation_data
-    if shown.library or shown.data.library:
-        raise RuntimeError(f"{shown.name} is linked from another file; make it local.")
-    if data and (data.use_tweak_mode or any(track.strips and not track.mute for track in data.nla_tracks)):
-        raise RuntimeError(f"The shape keys of {shown.name} are moved by NLA strips; bake or mute them.")
+def is_face(shown):
+    """Whether an object was opened from a face's file, or saved to one."""
+    return bool(shown and shown.type == "MESH" and shown.data.shape_keys and shown.get(SOURCE))
+
+
+def rate_of(scene):
+    """Frames a second."""
+    return scene.render.fps / scene.render.fps_base
 
 
 class MotionOperator(ToolOperator):
-    """An operator that moves the shape keys of a face that was opened or saved."""
+    """An operator that moves the shape keys of a face."""
 
     @classmethod
     def poll(cls, context):
-        shown = context.active_object
-        return bool(shown and shown.type == "MESH" and shown.data.shape_keys and shown.get(SOURCE))
+        return is_face(context.active_object)
 
-    def play(self, context, folder, *options):
-        """Has the tool animate the face, and keys the result from its first frame on; returns its last frame."""
-        shown, scene = context.active_object, context.scene
-        check_action(shown)
-        path, rate = os.path.join(folder, "take.glb"), scene.render.fps / scene.render.fps_base
-        run_tool(self, "animate", shown[SOURCE], "-o", path, *options)
-        animation, first, keys = Animation(path), self.first_frame(scene, rate), keys_of(shown)
+    def play(self, context, folder, first, *options):
+        """Has the tool animate the face, and keys the result from a frame on; returns its last frame."""
+        shown, rate = context.active_object, rate_of(context.scene)
+        name, path = shown.name, os.path.join(folder, "take.glb")
+        check_movable(shown)
+        yield from run_tool(self, "animate", shown[SOURCE], "-o", path, *options)
+        shown = bpy.data.objects.get(name)
+        if not is_face(shown):
+            raise RuntimeError(f"{name} was removed or renamed in the meantime; try again.")
+        check_movable(shown)
+        animation, keys = Animation(path), keys_of(shown)
         if any("@" in name and name not in keys and name.split("@")[0] in animation.tracks for name in animation.tracks):
             raise RuntimeError("Shape keys cannot show the regions of a timeline; leave them out of it.")
         moving = {name: track for name, track in animation.tracks.items() if track[1][:, track[1].shape[1] // 2].any()}
@@ -530,7 +647,6 @@ class MotionOperator(ToolOperator):
         driven = [name for name in moving if name in keys and driver_of(keys[name])]
         if driven:
             self.report({"WARNING"}, f"Drivers move the shape keys {', '.join(driven)}, whatever their keys say.")
-        check_curves(keys)
         for name, (times, values) in animation.tracks.items():
             key = keys.get(name)
             if key and (name in moving or curve_of(key) or key.value):  # others stay at rest as they are
@@ -560,9 +676,6 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
 
     pose: StringProperty(options={"HIDDEN", "SKIP_SAVE"})  # of the sliders, as JSON: on redo they have moved
 
-    def first_frame(self, scene, rate):
-        return scene.frame_current_final - self.seconds * rate
-
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
 
@@ -572,11 +685,10 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
             self.layout.prop(self, name)
 
     def work(self, context, folder):
-        scene = context.scene
-        first = self.first_frame(scene, scene.render.fps / scene.render.fps_base)
-        keys = keys_of(context.active_object)
-        check_curves(keys)
-        blocks = context.active_object.data.shape_keys
+        shown, scene = context.active_object, context.scene
+        check_movable(shown)
+        first = scene.frame_current_final - self.seconds * rate_of(scene)
+        keys, blocks = keys_of(shown), shown.data.shape_keys
         others = [key.name for key in blocks.key_blocks if key.value and key != blocks.reference_key and key not in keys.values()]
         if others:
             raise RuntimeError(f"The file of the face has no targets for {', '.join(others)}; save the face again.")
@@ -595,7 +707,7 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
         if self.law == "bounce":
             options += ["--restitution", self.restitution]
         told = lambda weights: ",".join(f"{name}={weight:.9g}" for name, weight in weights.items() if start[name] or end[name])
-        self.play(context, folder, "--from", told(start), "--to", told(end), *options)
+        yield from self.play(context, folder, first, "--from", told(start), "--to", told(end), *options)
 
 
 class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):
@@ -610,15 +722,14 @@ class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):
                           "otherwise", subtype="FILE_PATH")
     combine: BoolProperty(name="Combine", description="Targets named A_B or A_50 follow A and B", default=False)
 
-    def first_frame(self, scene, _rate):
-        return scene.frame_current_final
-
     def work(self, context, folder):
         options = (["--smooth"] if self.smooth else []) + (["--combine"] if self.combine else [])
         if self.names:
             options += ["--clip-names", bpy.path.abspath(self.names)]
-        last = self.play(context, folder, "--clip", path_of(self), *options)
-        context.scene.frame_end = max(context.scene.frame_end, int(numpy.ceil(last)))
+        name, first = context.scene.name, context.scene.frame_current_final
+        last = yield from self.play(context, folder, first, "--clip", path_of(self), *options)
+        if scene := bpy.data.scenes.get(name):
+            scene.frame_end = max(scene.frame_end, int(numpy.ceil(last)))
 
 
 # ---- Where Blender shows them ----
@@ -632,7 +743,7 @@ class Panel(bpy.types.Panel):
     bl_category = "Sweepface"
 
     def draw(self, context):
-        if not MotionOperator.poll(context):
+        if not is_face(context.active_object):
             self.layout.label(text="Open a .sweep face, or save one", icon="INFO")
             self.layout.operator(ImportSweep.bl_idname)
             self.layout.operator(ExportSweep.bl_idname)
@@ -661,6 +772,8 @@ def register():
 
 
 def unregister():
+    for each in list(WAITING):
+        each.cancel(bpy.context)
     bpy.types.TOPBAR_MT_file_import.remove(draw_import)
     bpy.types.TOPBAR_MT_file_export.remove(draw_export)
     for each in reversed(CLASSES):

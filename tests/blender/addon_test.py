@@ -6,7 +6,9 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
+from types import SimpleNamespace
 
 import bpy
 import numpy
@@ -23,7 +25,36 @@ def tool(*arguments):
     return subprocess.run([TOOL, *map(str, arguments)], check=True, capture_output=True, encoding="utf-8").stdout
 
 
-class AddOn(unittest.TestCase):
+class Watched:
+    """An operator as the user starts it, but without Blender, which has no windows here: tests send its events."""
+
+    def __init__(self, **properties):
+        self.reports = []
+        self.__dict__.update(properties)
+        self.steps = self.work_in_folder(bpy.context, is_watched=True)
+        self.result = self.step()
+
+    def report(self, level, text):
+        self.reports.append((*level, text))
+
+    def send(self, kind, value="NOTHING"):
+        self.result = self.modal(bpy.context, SimpleNamespace(type=kind, value=value))
+        return self.result
+
+    def wait(self):
+        """Lets time pass until Blender may forget the operator; returns its result."""
+        while self in addon.WAITING:
+            self.process.wait(60)
+            self.send("TIMER")
+        return self.send("MOUSEMOVE") if self.is_done else self.result
+
+
+def watched(kind, **properties):
+    functions = {"work": kind.work, "bl_label": kind.bl_label}
+    return type(kind.__name__, (Watched, kind.__bases__[0]), functions)(**properties)
+
+
+class InBlender(unittest.TestCase):
     def setUp(self):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         bpy.ops.preferences.addon_enable(module=addon.__name__)
@@ -85,6 +116,8 @@ class AddOn(unittest.TestCase):
         world = [shown.matrix_world @ vector for vector in map(Vector, places)]
         return [(p.x, p.z, -p.y) for p in world]
 
+
+class AddOn(InBlender):
     def test_saves_shape_keys_as_targets(self):
         shown = self.sheet()
         for pack in (False, True):
@@ -380,6 +413,222 @@ class AddOn(unittest.TestCase):
         self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(56), 0.6, delta=0.003)
         scene.frame_set(34)
         self.assertAlmostEqual(blocks["smile"].value, -1.2, delta=0.003)
+
+
+class WhileTheToolRuns(InBlender):
+    """What the user may do meanwhile, and what may go wrong."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("temporary"))
+        before = tempfile.tempdir
+        tempfile.tempdir = self.path("temporary")
+        self.addCleanup(setattr, tempfile, "tempdir", before)
+
+    def tearDown(self):
+        self.assertEqual(addon.WAITING, [])
+        self.assertEqual(os.listdir(self.path("temporary")), [])
+
+    def tool(self, lines):
+        """Has the add-on run a script instead of the tool, in the test's folder."""
+        path = self.path("tool")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(f"#!/bin/sh\ncd {self.folder.name}\n{lines}\n")
+        os.chmod(path, 0o755)
+        bpy.context.preferences.addons[addon.__name__].preferences.tool = path
+
+    def await_file(self, name):
+        end = time.monotonic() + 60
+        while not os.path.exists(self.path(name)) and time.monotonic() < end:
+            time.sleep(0.01)
+        os.remove(self.path(name))
+
+    def export(self, **options):
+        """Begins to save the active object, in place of another file."""
+        with open(self.path("face.sweep"), "w", encoding="utf-8") as file:
+            file.write("old")
+        options = {"pack": False, "tolerance": 0} | options
+        return watched(addon.ExportSweep, filepath=self.path("face.sweep"), **options)
+
+    def assert_untouched(self):
+        with open(self.path("face.sweep"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "old")
+        self.assertFalse([name for name in os.listdir(self.folder.name) if name.endswith(".tmp")])
+
+    def test_what_is_saved_is_what_was_there_at_first(self):
+        shown = self.sheet()
+        keys = shown.data.shape_keys.key_blocks
+        expected = self.expected(shown, [point.co for point in keys["smile"].data])
+        job = self.export(tolerance=TOLERANCE, pack=True)
+        self.assertEqual(job.result, {"RUNNING_MODAL"})
+        self.assertEqual(job.send("A", "PRESS"), {"PASS_THROUGH"}, "Blender goes on")
+        for point in keys["smile"].data:
+            point.co.z += 1
+        shown.location.x = 5
+        shown.shape_key_remove(keys["jawOpen"])
+        self.assertEqual(job.wait(), {"FINISHED", "PASS_THROUGH"})
+        self.assertRegex(job.reports[-1][1], "bytes")
+        self.assertEqual(list(addon.keys_of(shown)), ["smile"])
+        tool("export", self.path("face.sweep"), "-o", self.path("meshes"))
+        self.assert_near(addon.places_in(self.path("meshes/expressions/smile.obj")), expected)
+
+    def test_the_object_may_vanish(self):
+        bpy.data.objects.remove(self.face())
+        shown = self.sheet()
+        saving = self.export()
+        bpy.data.objects.remove(shown)
+        self.assertEqual(saving.wait(), {"FINISHED", "PASS_THROUGH"})
+        shown = self.face()
+        shown.data.shape_keys.key_blocks["smile"].value = 1
+        moving = watched(addon.MoveToPose, law="linear", seconds=1, pose="")
+        bpy.data.objects.remove(shown)
+        self.assertEqual(moving.wait(), {"CANCELLED"})
+        self.assertEqual(moving.reports, [("ERROR", "Grid was removed or renamed in the meantime; try again.")])
+
+    def test_a_motion_ends_where_the_frame_and_the_sliders_were(self):
+        shown = self.face()
+        keys = shown.data.shape_keys.key_blocks
+        bpy.context.scene.frame_set(24)
+        keys["smile"].value = 0.8
+        job = watched(addon.MoveToPose, law="linear", seconds=0.5, pose="")
+        bpy.context.scene.frame_set(50)
+        keys["smile"].value = 0.1
+        job.wait()
+        places = [tuple(point.co) for point in addon.curve_of(keys["smile"]).keyframe_points]
+        self.assert_near(places, [(12, 0), (24, 0.8)], 1e-5)
+
+    def test_a_clip_lengthens_the_scene_where_it_began(self):
+        self.face()
+        with open(self.path("take.csv"), "w", encoding="utf-8") as file:
+            file.write("Timecode,JawOpen\n0,0\n1,0.5\n")
+        scene = bpy.context.scene
+        scene.frame_end = 5
+        scene.frame_set(10)
+        job = watched(addon.PlayClip, filepath=self.path("take.csv"), smooth=False, combine=False, names="")
+        other = bpy.data.scenes.new("other")
+        other.frame_end = 7
+        bpy.context.window.scene = other
+        job.wait()
+        self.assertEqual((scene.frame_end, other.frame_end), (34, 7))
+
+    def test_a_face_arrives_while_another_is_edited(self):
+        shown = self.face()
+        job = watched(addon.ImportSweep, filepath=self.path("face.sweep"), lod=0)
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.assertEqual(job.wait(), {"FINISHED", "PASS_THROUGH"})
+        self.assertEqual((bpy.context.active_object, bpy.context.mode), (shown, "EDIT_MESH"))
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.context.view_layer.objects.active = bpy.data.objects["face"]
+        self.assert_moves({"jawOpen", "smile"})
+
+    def test_several_operators_wait_at_a_time(self):
+        self.sheet()
+        self.tool("exec sleep 60")
+        jobs = [self.export(), self.export()]
+        self.assertEqual(addon.WAITING, jobs)
+        for job in jobs:
+            job.send("ESC", "PRESS")
+            self.assertEqual(job.wait(), {"CANCELLED"})
+
+    def test_escape_cancels(self):
+        self.sheet()
+        self.tool("trap 'echo sweepface: Interrupted. >&2; exit 130' TERM\ntouch ready\nwhile :; do sleep 0.05; done")
+        job = self.export()
+        self.await_file("ready")
+        self.assertEqual(job.send("TIMER"), {"RUNNING_MODAL"})
+        self.assertEqual(job.send("ESC", "RELEASE"), {"PASS_THROUGH"})
+        self.assertEqual(job.send("ESC", "PRESS"), {"RUNNING_MODAL"})
+        self.assertEqual(job.send("ESC", "PRESS"), {"PASS_THROUGH"}, "for others")
+        self.assertEqual(job.wait(), {"CANCELLED"})
+        self.assertEqual(job.process.returncode, 130)
+        self.assertEqual(job.reports, [("INFO", "Cancelled")])
+        self.assert_untouched()
+
+    def test_escape_between_two_runs_cancels(self):
+        self.tool("""echo "$1" >> runs; echo '{"targets": []}'""")
+        job = watched(addon.ImportSweep, filepath=self.path("face.sweep"), lod=0)
+        job.process.wait(60)
+        job.send("ESC", "PRESS")
+        self.assertEqual(job.wait(), {"CANCELLED"})
+        self.assertEqual(job.reports, [("INFO", "Cancelled")])
+        self.assertEqual(addon.read_lines(self.path("runs")), ["info"])
+
+    def test_escape_may_come_too_late(self):
+        shown = self.sheet()
+        job = self.export()
+        job.process.wait(60)
+        job.send("ESC", "PRESS")
+        self.assertEqual(job.wait(), {"FINISHED", "PASS_THROUGH"})
+        self.assertEqual(shown[addon.SOURCE], self.path("face.sweep"))
+
+    def test_the_undo_step_waits_until_no_brush_is_at_work(self):
+        self.sheet()
+        job = self.export()
+        while addon.WAITING:
+            self.assertEqual(job.send("TIMER"), {"RUNNING_MODAL"} if addon.WAITING else {"PASS_THROUGH"})
+            time.sleep(0.01)
+        self.assertEqual(job.send("TIMER"), {"PASS_THROUGH"})
+        self.assertEqual(job.send("LEFTMOUSE", "RELEASE"), {"PASS_THROUGH"})
+        self.assertEqual(job.send("Z", "PRESS"), {"FINISHED", "PASS_THROUGH"})
+
+    def test_quitting_ends_the_tool_even_if_it_does_not_listen(self):
+        self.sheet()
+        for lines in ("touch ready\nexec sleep 60", "trap '' TERM\ntouch ready\nwhile :; do sleep 0.05; done"):
+            self.tool(lines)
+            job = self.export()
+            self.await_file("ready")
+            job.cancel(bpy.context)
+            self.assertLess(job.process.returncode, 0)
+            self.assertEqual(job.reports, [])
+            self.assert_untouched()
+
+    def test_choosing_no_file_does_nothing(self):
+        addon.ToolOperator().cancel(bpy.context)
+
+    def test_the_add_on_may_be_switched_off(self):
+        self.sheet()
+        self.tool("exec sleep 60")
+        job = self.export()
+        bpy.ops.preferences.addon_disable(module=addon.__name__)
+        self.assertIsNotNone(job.process.returncode)
+        self.assert_untouched()
+
+    def test_the_tool_may_fail(self):
+        self.sheet()
+        for lines, part in (("echo 'sweepface: The disk is full.' >&2; exit 1", "^The disk is full.$"),
+                            ("kill -9 $$", "tool ended with -9.$")):
+            self.tool(lines)
+            job = self.export()
+            self.assertEqual(job.wait(), {"CANCELLED"})
+            self.assertEqual(job.reports[0][0], "ERROR")
+            self.assertRegex(job.reports[0][1], part)
+            self.assert_untouched()
+            self.assert_refused(lambda: bpy.ops.export_scene.sweep(filepath=self.path("face.sweep")), part[1:-1])
+
+    def test_the_tool_may_vanish(self):
+        self.face()
+        self.tool(f'rm "$0"; exec {TOOL} "$@"')
+        job = watched(addon.ImportSweep, filepath=self.path("face.sweep"), lod=0)
+        self.assertEqual(job.wait(), {"CANCELLED"})
+        self.assertRegex(job.reports[-1][1], "^Cannot run .*tool .No such file or directory.; say in")
+        self.assertEqual(self.export().result, {"CANCELLED"})
+
+    def test_the_tool_may_say_much(self):
+        self.tool("yes out | head -n 1000000\nyes 'sweepface: warning: err' | head -n 1000 >&2\necho the end\n"
+                  "head -c 3000000 /dev/zero >&2")
+        said = []
+
+        class Much(addon.ToolOperator):
+            bl_label = "Much"
+
+            def work(self, _context, _folder):
+                said.append((yield from addon.run_tool(self, "talk")))
+
+        job = watched(Much)
+        self.assertEqual(job.wait(), {"FINISHED", "PASS_THROUGH"})
+        self.assertEqual(said[0].count("out\n"), 1000000)
+        self.assertTrue(said[0].endswith("the end\n"))
+        self.assertEqual(job.reports.count(("WARNING", "err")), 1000)
 
 
 result = unittest.main(argv=["addon_test"], exit=False, verbosity=2).result
