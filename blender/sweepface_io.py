@@ -31,6 +31,7 @@ bl_info = {
 # Faces have y up, as OBJ and glTF do; Blender has z up.
 UPRIGHT = axis_conversion(from_forward="-Z", from_up="Y").to_4x4()
 NEAREST = 0.02  # frames; Blender treats keys nearer than this as one
+NO_CONSOLE = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # which Windows would open and close again
 SOURCE = "sweepface_file"  # the property of an object that names the file of the face it shows,
 TARGETS = "sweepface_targets"  # and a JSON of the face's targets by the names of the shape keys
 
@@ -59,8 +60,8 @@ def run_tool(operator, *arguments):
     text_file = lambda: tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")
     with text_file() as printed, text_file() as told:  # nobody reads meanwhile, so pipes could fill up
         try:
-            process = subprocess.Popen([tool, *map(str, arguments)], stdin=subprocess.DEVNULL,
-                                       stdout=printed, stderr=told)
+            process = subprocess.Popen([tool, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=printed,
+                                       stderr=told, creationflags=NO_CONSOLE)
         except OSError as error:
             raise RuntimeError(f"Cannot run {tool} ({error.strerror}); say in the add-on's preferences "
                                "where it is.") from error

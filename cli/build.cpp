@@ -83,7 +83,8 @@ Result<int> runBuild(const BuildArguments& a) {
   if (hasArcs) built->rig.turns = findTurns(built->rig);
   const Result<std::string> bytes = encodeReadable(built->rig, a.output);
   if (!bytes) return std::unexpected(bytes.error());
-  if (auto written = writeFile(utf8Path(a.output), *bytes); !written) return std::unexpected(written.error());
+  if (auto written = writeFile(utf8Path(a.output), *bytes); !written)
+    return std::unexpected(written.error());
   if (a.arcs && built->rig.turns.empty()) printWarning(kNoTurns);
   for (const Target& target : built->rig.targets)
     if (!canBeListed(target.name)) printWarning(cannotBeListed(target.name));

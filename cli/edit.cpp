@@ -225,7 +225,8 @@ Result<int> runEdit(const EditArguments& a) {
   if (!bytes) return std::unexpected(bytes.error());
   std::error_code unknown;
   const auto size = std::filesystem::file_size(utf8Path(a.face), unknown);
-  if (auto written = writeFile(utf8Path(a.output), *bytes); !written) return std::unexpected(written.error());
+  if (auto written = writeFile(utf8Path(a.output), *bytes); !written)
+    return std::unexpected(written.error());
   if (!a.quiet) printSummary(a, editor);
   if (!unknown) warnOfSize(a, size, bytes->size());
   return 0;

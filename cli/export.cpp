@@ -67,7 +67,8 @@ void addOptions(CLI::App& app, ExportArguments& a) {
 }
 
 bool isOfFolder(const ExportArguments& a) {
-  return !isOfKind(a.output, ".obj") && !isOfKind(a.output, ".glb") && meansFolder(utf8Path(a.output));
+  return !isOfKind(a.output, ".obj") && !isOfKind(a.output, ".glb") &&
+         meansFolder(utf8Path(a.output));
 }
 
 Budget budgetOf(const ExportArguments& a) {
@@ -156,7 +157,8 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
     following.apply(weights);
     return meshes.obj(weights);
   };
-  if (auto ok = writeMeshes({following.count + 1, "meshes", utf8Path(a.face), path, text}, a.quiet); !ok)
+  if (auto ok = writeMeshes({following.count + 1, "meshes", utf8Path(a.face), path, text}, a.quiet);
+      !ok)
     return ok;
   if (!a.quiet)
     fmt::print("{}: {} targets, {} faces each\n", a.output, following.count,

@@ -296,7 +296,8 @@ Result<int> runPlot(const PlotArguments& a) {
                  linePlot("Velocity", {"seconds"}, {"per second"}, velocities),
                  linePlot("Acceleration", {"seconds"}, {"per second²"}, accelerations),
                  linePlot("Force", {"seconds"}, {"mass × per second²"}, forces)});
-  if (auto written = writeFile(utf8Path(a.output), svg); !written) return std::unexpected(written.error());
+  if (auto written = writeFile(utf8Path(a.output), svg); !written)
+    return std::unexpected(written.error());
   for (const std::string& note : plotted->notes) printWarning(note);
   if (!a.quiet)
     fmt::print("{}: {} curve{}\n", a.output, positions.size(), positions.size() == 1 ? "" : "s");

@@ -136,7 +136,8 @@ void addRegions(CLI::App& app, RegionArguments& a) {
 Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& a,
                             const FollowingArguments& following, Rig& rig) {
   // Read once, as it may be a pipe.
-  const Result<std::string> clip = what.clip.empty() ? std::string() : readFile(utf8Path(what.clip));
+  const Result<std::string> clip =
+      what.clip.empty() ? std::string() : readFile(utf8Path(what.clip));
   if (!clip) return std::unexpected(clip.error());
   auto regions = regionsOf(what, *clip, a, rig);
   if (!regions) return std::unexpected(regions.error());

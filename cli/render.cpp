@@ -115,7 +115,8 @@ Result<int> runRender(const RenderArguments& a) {
   if (!image) return std::unexpected(image.error());
   const Result<std::string> png = encodePng(*image);
   if (!png) return std::unexpected(png.error());
-  if (auto written = writeFile(utf8Path(a.output), *png); !written) return std::unexpected(written.error());
+  if (auto written = writeFile(utf8Path(a.output), *png); !written)
+    return std::unexpected(written.error());
   if (!a.quiet)
     fmt::print("{}: {} × {} pixels, {} bytes\n", a.output, image->width, image->height,
                png->size());

@@ -76,7 +76,8 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
   if (!a.gltfpack.empty()) {
     // A name without a folder is searched for only when it is run.
     std::error_code ignored;
-    if (a.gltfpack.contains('/') && !std::filesystem::is_regular_file(utf8Path(a.gltfpack), ignored))
+    if (a.gltfpack.contains('/') &&
+        !std::filesystem::is_regular_file(utf8Path(a.gltfpack), ignored))
       return fail(fmt::format("There is no program {}; --gltfpack says where it is.", a.gltfpack));
     options.gltfpack = a.gltfpack;
   }
@@ -116,7 +117,8 @@ Result<int> runReport(const ReportArguments& a) {
   const Result<std::string> page = reportOf(a);
   if (interrupted) return endInterrupted();
   if (!page) return std::unexpected(page.error());
-  if (auto written = writeFile(utf8Path(a.output), *page); !written) return std::unexpected(written.error());
+  if (auto written = writeFile(utf8Path(a.output), *page); !written)
+    return std::unexpected(written.error());
   if (!a.quiet) fmt::print("{}: {} bytes\n", a.output, page->size());
   return 0;
 }

@@ -39,8 +39,7 @@ bool isFull(int code) {
 }
 
 std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
-  const char* const advice = isFull(code)
-                                 ? "; make room there, or choose another place"
+  const char* const advice = isFull(code) ? "; make room there, or choose another place"
                              : code == EACCES || code == EPERM || code == EROFS
                                  ? "; choose another place, or change its permissions"
                                  : "";
@@ -195,9 +194,7 @@ fs::path pointedTo(fs::path path) {
 
 }  // namespace
 
-fs::path utf8Path(std::string_view text) {
-  return std::u8string(text.begin(), text.end());
-}
+fs::path utf8Path(std::string_view text) { return std::u8string(text.begin(), text.end()); }
 
 Result<std::string> readFile(const fs::path& path) {
   const auto cannotRead = [&](std::string_view why) {

@@ -17,7 +17,7 @@ from mathutils import Vector
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../blender"))
 import sweepface_io as addon  # noqa: E402
 
-TOOL = sys.argv[sys.argv.index("--") + 1]
+TOOL = os.path.abspath(sys.argv[sys.argv.index("--") + 1])
 TOLERANCE = 1e-3
 
 
