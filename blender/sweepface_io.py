@@ -6,6 +6,7 @@ preferences say where it is. See docs/blender.md.
 
 import json
 import os
+import re
 import struct
 import subprocess
 import tempfile
@@ -57,29 +58,39 @@ def run_tool(operator, *arguments):
         raise RuntimeError("Cancelled")
     addon = bpy.context.preferences.addons.get(__name__)
     tool = bpy.path.abspath(addon.preferences.tool) if addon else "sweepface"
-    text_file = lambda: tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")
-    with text_file() as printed, text_file() as told:  # nobody reads meanwhile, so pipes could fill up
+    with tempfile.TemporaryDirectory() as folder:  # as nobody reads all the time, pipes could fill up
+        printed, told = os.path.join(folder, "printed"), os.path.join(folder, "told")
         try:
-            process = subprocess.Popen([tool, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=printed,
-                                       stderr=told, creationflags=NO_CONSOLE)
+            with open(printed, "wb") as stdout, open(told, "wb") as stderr:
+                process = subprocess.Popen([tool, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=stdout,
+                                           stderr=stderr, creationflags=NO_CONSOLE,
+                                           env={**os.environ, "SWEEPFACE_PROGRESS": "1"})
         except OSError as error:
             raise RuntimeError(f"Cannot run {tool} ({error.strerror}); say in the add-on's preferences "
                                "where it is.") from error
         try:
             while process.returncode is None:
+                operator.progress = told_by_tool(told)[1]
                 yield process
                 process.poll()
         finally:
             end(process)
-        printed.seek(0)
-        told.seek(0)
-        said = [line.removeprefix("sweepface: ") for line in told.read().splitlines() if line]
+        said, _ = told_by_tool(told)
         if process.returncode:
             raise RuntimeError(" ".join(said) or f"{tool} ended with {process.returncode}.")
         for line in said:
             if "--head on" not in line:  # advises an option that the add-on does not have
                 operator.report({"WARNING"}, line.removeprefix("warning: "))
-        return printed.read()
+        with open(printed, encoding="utf-8", errors="replace") as file:
+            return file.read()
+
+
+def told_by_tool(path):
+    """The messages among what the tool tells, and how far it says it is, such as "42 % fitting"."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        lines = [line.removeprefix("sweepface: ") for line in file.read().splitlines() if line]
+    progress = [line for line in lines if re.match(r"\d+ % ", line)]
+    return [line for line in lines if line not in progress], (progress or [""])[-1]
 
 
 def end(process):
@@ -101,8 +112,8 @@ WAITING = []  # the operators that wait for the tool while Blender goes on
 
 
 def tell_waiting():
-    """Shows in the status bar how long operators have been waiting."""
-    texts = [f"{each.bl_label}: {time.monotonic() - each.began:.0f} s" for each in WAITING]
+    """Shows in the status bar how far the tool is, and for how long operators have been waiting."""
+    texts = [f"{each.bl_label}: {each.progress} {time.monotonic() - each.began:.0f} s" for each in WAITING]
     for workspace in bpy.data.workspaces:  # the user may switch to another
         workspace.status_text_set(", ".join(texts) + " (Esc cancels)" if texts else None)
 
@@ -131,7 +142,7 @@ class ToolOperator:
     """
 
     bl_options = {"REGISTER", "UNDO"}
-    steps, is_cancelled, is_done = None, False, False
+    steps, is_cancelled, is_done, progress = None, False, False, ""
 
     def execute(self, context):
         call = self.options

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -38,14 +39,18 @@ void printJson(const nlohmann::ordered_json& report) {
   fmt::print("{}\n", report.dump(2, ' ', false, Handler::replace));
 }
 
-ProgressBar::ProgressBar(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO)) {}
+ProgressBar::ProgressBar(bool quiet)
+    : form_(quiet                               ? Form::none
+            : isatty(STDERR_FILENO)             ? Form::bar
+            : std::getenv("SWEEPFACE_PROGRESS") ? Form::lines
+                                                : Form::none) {}
 
 ProgressBar::~ProgressBar() {
-  if (!text_.empty()) tell("\r\033[K");
+  if (form_ == Form::bar && !text_.empty()) tell("\r\033[K");
 }
 
 void ProgressBar::show(std::string_view what, double done) {
-  if (!visible_) return;
+  if (form_ == Form::none) return;
   constexpr int width = 30;
   const double share = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0;
   const std::scoped_lock lock(drawing_);
@@ -53,6 +58,12 @@ void ProgressBar::show(std::string_view what, double done) {
   // Terminals are slow: draw only some frames a second.
   if (share < 1 && now - last_ < std::chrono::milliseconds(50)) return;
   last_ = now;
+  if (form_ == Form::lines) {
+    std::string line = fmt::format("sweepface: {:.0f} % {}\n", 100 * share, what);
+    if (line != text_) tell(line);
+    text_ = std::move(line);
+    return;
+  }
   const int full = static_cast<int>(share * width);
   text_ =
       fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, 100 * share, what);

@@ -14,8 +14,9 @@ void printWarning(std::string_view sentence);
 /// Prints JSON to the output stream; bytes in names that are not UTF-8 are replaced.
 void printJson(const nlohmann::ordered_json& report);
 
-/// A progress bar on the last line of a terminal, erased when the work is done. Silent if the error
-/// stream is no terminal. Any thread may call it.
+/// A progress bar on the last line of a terminal, erased when the work is done. If the error stream
+/// is no terminal it is silent, or prints lines like "sweepface: 42 % fitting" where the variable
+/// SWEEPFACE_PROGRESS is set, for programs that run the tool. Any thread may call it.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
@@ -27,7 +28,9 @@ class ProgressBar {
   void show(std::string_view what, double done);
 
  private:
-  bool visible_;
+  enum class Form { none, bar, lines };
+
+  Form form_;
   std::mutex drawing_;
   std::chrono::steady_clock::time_point last_{};
   std::string text_;

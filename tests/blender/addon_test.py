@@ -441,6 +441,9 @@ class WhileTheToolRuns(InBlender):
         end = time.monotonic() + 60
         while not os.path.exists(self.path(name)) and time.monotonic() < end:
             time.sleep(0.01)
+
+    def await_and_remove(self, name):
+        self.await_file(name)
         os.remove(self.path(name))
 
     def export(self, **options):
@@ -530,11 +533,27 @@ class WhileTheToolRuns(InBlender):
             job.send("ESC", "PRESS")
             self.assertEqual(job.wait(), {"CANCELLED"})
 
+    def test_how_far_the_tool_is_can_be_read(self):
+        self.sheet()
+        self.tool("""[ $SWEEPFACE_PROGRESS ] || exit 1
+            echo 'sweepface: warning: 3 % fold.' >&2; echo 'sweepface: 7 % reading' >&2; touch began
+            while [ -e began ]; do sleep 0.05; done
+            echo 'sweepface: 42 % fitting' >&2; touch went_on
+            while [ -e went_on ]; do sleep 0.05; done; echo '9 bytes'""")
+        job = self.export()
+        for file, expected in (("began", "7 % reading"), ("went_on", "42 % fitting")):
+            self.await_file(file)
+            job.send("TIMER")
+            self.assertEqual(job.progress, expected)
+            os.remove(self.path(file))
+        job.wait()
+        self.assertEqual(job.reports, [("WARNING", "3 % fold."), ("INFO", "9 bytes")])
+
     def test_escape_cancels(self):
         self.sheet()
         self.tool("trap 'echo sweepface: Interrupted. >&2; exit 130' TERM\ntouch ready\nwhile :; do sleep 0.05; done")
         job = self.export()
-        self.await_file("ready")
+        self.await_and_remove("ready")
         self.assertEqual(job.send("TIMER"), {"RUNNING_MODAL"})
         self.assertEqual(job.send("ESC", "RELEASE"), {"PASS_THROUGH"})
         self.assertEqual(job.send("ESC", "PRESS"), {"RUNNING_MODAL"})
@@ -576,7 +595,7 @@ class WhileTheToolRuns(InBlender):
         for lines in ("touch ready\nexec sleep 60", "trap '' TERM\ntouch ready\nwhile :; do sleep 0.05; done"):
             self.tool(lines)
             job = self.export()
-            self.await_file("ready")
+            self.await_and_remove("ready")
             job.cancel(bpy.context)
             self.assertLess(job.process.returncode, 0)
             self.assertEqual(job.reports, [])

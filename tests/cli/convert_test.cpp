@@ -9,6 +9,18 @@ namespace {
 using namespace testing;
 using Convert = Tool;
 
+TEST_F(Convert, TellsProgramsHowFarItIs) {
+  makeRig();
+  const std::string convert = "convert neutral.obj targets -o face.sweep --tolerance 0.01";
+  setenv("SWEEPFACE_PROGRESS", "1", 1);
+  const Outcome told = run(convert), quiet = run(convert + " --quiet");
+  unsetenv("SWEEPFACE_PROGRESS");
+  EXPECT_TRUE(told.err.starts_with("sweepface: ")) << told.err;
+  EXPECT_NE(told.err.find("sweepface: 100 % "), std::string::npos) << told.err;
+  EXPECT_EQ(quiet.err, "");
+  EXPECT_EQ(run(convert).err, "");
+}
+
 TEST_F(Convert, WarnsOfNamesThatCommandsCannotTake) {
   makeRig();
   folder.file("p,q.obj", sheet(opened));
