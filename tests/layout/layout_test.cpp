@@ -47,6 +47,44 @@ void expectGrids(const Laid& laid) {
   EXPECT_EQ(std::ranges::count(covered, 1), static_cast<std::ptrdiff_t>(covered.size()));
 }
 
+// Each patch is on the other side of the arc that has waited longest for one, and begins with the
+// side that has (where none has, as it was read off the marks), unless a turn shortens ribbons.
+void expectGlued(const Wireframe& w, const std::vector<GridPatch>& patches,
+                 const std::vector<GridPatch>& asRead) {
+  const auto beginsAsRead = [&](const GridPatch& patch) {
+    return std::ranges::any_of(
+        asRead, [&](const GridPatch& read) { return read.bottoms[0] == patch.bottoms[0]; });
+  };
+  std::vector<Index> patchOf(2 * w.arcs.size(), -1);
+  const auto loopOf = [&](Index p) {
+    const auto& sides = w.patches[p].sides;
+    return std::span(w.loops).subspan(sides[0], sides[4] - sides[0]);
+  };
+  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)
+    for (const HalfArc h : loopOf(p)) patchOf[h] = p;
+  std::vector<std::size_t> waiting(2 * w.arcs.size(), SIZE_MAX);  // place in the queue
+  std::vector<HalfArc> queue;
+  std::size_t head = 0;
+  codec::SweepRule rule(w);
+  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
+    while (head < queue.size() && patchOf[queue[head]] < p) ++head;
+    EXPECT_EQ(head < queue.size() ? patchOf[queue[head]] : p, p);
+    int base = beginsAsRead(patches[p]) ? 0 : 3;
+    for (int s = 0; s < 4; ++s)
+      if (waiting[w.side(p, s)[0]] < waiting[w.side(p, base)[0]]) base = s;
+    EXPECT_TRUE(base == 0 || (base == 3 && rule.turns(p, base)))
+        << p << " should begin at " << base;
+    rule.sweep(p);
+    std::vector<HalfArc> loop(loopOf(p).begin(), loopOf(p).end());
+    std::ranges::rotate(loop, loop.begin() + (w.patches[p].sides[base] - w.patches[p].sides[0]));
+    for (const HalfArc h : loop) {
+      if (patchOf[twin(h)] <= p) continue;
+      waiting[twin(h)] = queue.size();
+      queue.push_back(twin(h));
+    }
+  }
+}
+
 void expectSurface(const Laid& laid) {
   auto patches = laid.patches();
   const auto [w, nodeVertices] = laid.layout.wireframe(patches);
@@ -60,6 +98,7 @@ void expectSurface(const Laid& laid) {
     EXPECT_EQ(w.arcs[w.side(p, 0)[0] >> 1].collapsed,
               laid.mesh.collapsed[patches[p].bottoms[0]] != 0);
   }
+  expectGlued(w, patches, laid.patches());
   // Files store nothing for how patches sweep and which arcs share a ribbon: rules predict both.
   codec::SweepRule rule(w);
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
