@@ -4,6 +4,7 @@
 // With SWEEPFACE_CLIPS defined it calls libsweepface_clips instead, which reads clips, too.
 #pragma warning disable 8600, 8601, 8602, 8603, 8604, 8618, 8625  // where null is allowed, comments say so
 using System;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 using System.Text;
 
@@ -66,6 +67,34 @@ namespace Sweepface
     [Flags]
     public enum Following { None = 0, Arcs = 1, Combine = 2 }
 
+    /// <summary>Where a part of the face is: everything that is named, and what is near it (docs/regions.md).</summary>
+    [Serializable]
+    public sealed class Brush
+    {
+        /// <summary>Materials and groups of the source.</summary>
+        public string[] Parts = {};
+        /// <summary>[points x 3] separate places, in model units; a line through places.</summary>
+        public double[] Points = {}, Line = {};
+        /// <summary>Curves of the wireframe, by name or number.</summary>
+        public string[] Curves = {};
+        /// <summary>Single nodes, by name or number, and the exact shares they get.</summary>
+        public string[] Nodes = {};
+        public double[] NodeShares = {};
+        /// <summary>All of the surface up to the first distance; beyond it, less and less over the second.</summary>
+        public double Whole, Fade;
+        /// <summary>Distances straight through space, not along the surface.</summary>
+        public bool ThroughSpace;
+    }
+
+    /// <summary>How a region moves: its mass and stiffness relative to the rest, which has 1, and how many seconds later
+    /// it sets out.</summary>
+    [Serializable]
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Matter
+    {
+        public double Mass, Stiffness, Delay;
+    }
+
     /// <summary>Triangles of one material.</summary>
     [Serializable]
     public struct FacePart
@@ -74,8 +103,8 @@ namespace Sweepface
         public int FirstTriangle, TriangleCount;
     }
 
-    /// <summary>What a file holds. Any number of threads may read it; Follow and TurnEyes change it.</summary>
-    public sealed class FaceRig : IDisposable
+    /// <summary>What a file holds. Any number of threads may read it; Follow, TurnEyes and Divide change it.</summary>
+    public sealed partial class FaceRig : IDisposable
     {
         internal readonly Handle Handle;
 
@@ -127,6 +156,48 @@ namespace Sweepface
         {
             Native.Check(Native.sweepface_rig_turn_eyes(Handle, out uint eyes));
             return (int)eyes;
+        }
+
+        /// <summary>The nodes of the wireframe, between which regions divide the face.</summary>
+        public int NodeCount => (int)Native.sweepface_rig_node_count(Handle);
+
+        /// <summary>How much of each node a brush paints, [nodes] from 0 to 1; or [bands x nodes] of neighbouring bands,
+        /// from what it takes wholly to what lies beyond its fade.</summary>
+        public double[] Paint(Brush brush, int bands = 1)
+        {
+            if (brush == null) throw new ArgumentNullException(nameof(brush));
+            var shares = new double[(long)Native.Index(bands, nameof(bands)) * NodeCount];
+            using (var pins = new Pins())
+            {
+                var told = new Native.BrushIn(brush, pins);
+                Native.Check(Native.sweepface_rig_paint(Handle, ref told, (uint)bands, shares, (UIntPtr)shares.Length));
+            }
+            return shares;
+        }
+
+        /// <summary>Divides the face into painted regions with weights of their own, shares [names x nodes], for meshes
+        /// made from now on; none: one region again. What is left becomes a first region, "rest".</summary>
+        public void Divide(string[] names, double[] shares)
+        {
+            if (names == null) throw new ArgumentNullException(nameof(names));
+            if (shares == null) throw new ArgumentNullException(nameof(shares));
+            if (shares.Length != (long)names.Length * NodeCount)
+                throw new ArgumentException("There must be " + NodeCount + " shares for each region.", nameof(shares));
+            using (var pins = new Pins())
+                Native.Check(Native.sweepface_rig_divide(Handle, pins.Of(names), shares, (UIntPtr)names.Length));
+        }
+
+        /// <summary>The regions, by which weights are counted; a single null if the face is not divided.</summary>
+        public string[] RegionNames
+        {
+            get
+            {
+                var names = new string[Native.sweepface_rig_region_count(Handle)];
+                for (int k = 0; k < names.Length; ++k)
+                    names[k] = Native.String(Native.sweepface_rig_region_name(Handle, (uint)k));
+                GC.KeepAlive(this);
+                return names;
+            }
         }
 
         /// <summary>How far any vertex may be off in any expression, in model units.</summary>
@@ -189,6 +260,9 @@ namespace Sweepface
         public int PointCount => (int)Native.sweepface_mesh_point_count(Handle);
         public int VertexCount => (int)Native.sweepface_mesh_vertex_count(Handle);
         public int TriangleCount => (int)Native.sweepface_mesh_triangle_count(Handle);
+
+        /// <summary>The regions for which its faces have weights.</summary>
+        public int RegionCount => (int)Native.sweepface_mesh_region_count(Handle);
 
         // What follows is copied each time.
 
@@ -273,9 +347,14 @@ namespace Sweepface
         public void SetWeight(int target, double weight) =>
             Native.Check(Native.sweepface_face_set_weight(handle, Native.Index(target, nameof(target)), weight));
 
-        /// <summary>Sets the first weights.</summary>
+        /// <summary>Sets the first weights, in all regions.</summary>
         public void SetWeights(double[] weights) =>
             Native.Check(Native.sweepface_face_set_weights(handle, weights, Native.Count(weights)));
+
+        /// <summary>Sets the first weights in one region.</summary>
+        public void SetWeights(int region, double[] weights) =>
+            Native.Check(Native.sweepface_face_set_region_weights(handle, Native.Index(region, nameof(region)), weights,
+                                                                  Native.Count(weights)));
 
         /// <summary>Writes positions, and normals unless null, of all vertices: [vertices x 3] each.</summary>
         public void Evaluate(float[] positions, float[] normals = null)
@@ -367,6 +446,17 @@ namespace Sweepface
             handle = new Handle(motion, Native.sweepface_motion_free);
         }
 
+        /// <summary>The same for regions: what moves a weight moves it in all, in each by its matter. Positions and
+        /// velocities are then [regions x weights].</summary>
+        public FaceMotion(double[] weights, Matter[] matters)
+        {
+            if (matters == null) throw new ArgumentNullException(nameof(matters));
+            Native.CheckVersion();
+            Native.Check(Native.sweepface_motion_create_regions(weights, Native.Count(weights), matters,
+                                                                (UIntPtr)matters.Length, out IntPtr motion));
+            handle = new Handle(motion, Native.sweepface_motion_free);
+        }
+
         FaceMotion(IntPtr motion) { handle = new Handle(motion, Native.sweepface_motion_free); }
 
         /// <summary>A second motion in the same state, independent from then on.</summary>
@@ -387,6 +477,16 @@ namespace Sweepface
         /// <summary>Sends all weights to goals, one each.</summary>
         public void MoveTo(double[] goals, Drive? drive = null) =>
             Native.Check(Native.sweepface_motion_move_all(handle, goals, Native.Count(goals), DriveOf(drive)));
+
+        /// <summary>Sends a weight to a goal in one region.</summary>
+        public void MoveIn(int region, int weight, double goal, Drive? drive = null) =>
+            Native.Check(Native.sweepface_motion_move_in(handle, Native.Index(region, nameof(region)),
+                                                         Native.Index(weight, nameof(weight)), goal, DriveOf(drive)));
+
+        /// <summary>Puts a weight somewhere in one region, at once and without its delay.</summary>
+        public void PutIn(int region, int weight, double value) =>
+            Native.Check(Native.sweepface_motion_put_in(handle, Native.Index(region, nameof(region)),
+                                                        Native.Index(weight, nameof(weight)), value));
 
         Drive[] DriveOf(Drive? drive)
         {
@@ -412,6 +512,25 @@ namespace Sweepface
     }
 
 #if SWEEPFACE_CLIPS
+    public sealed partial class FaceRig
+    {
+        /// <summary>Divides the face by the regions of a JSON text, which may be a timeline, for meshes made from now
+        /// on. Messages call it by the name, which may be null.</summary>
+        public void Divide(byte[] text, string name = null)
+        {
+            if (text == null) throw new ArgumentNullException(nameof(text));
+            Native.Check(Native.sweepface_rig_divide_by(Handle, text, (UIntPtr)text.Length, Native.Text(name)));
+        }
+
+        /// <summary>How a region moves, as that text says.</summary>
+        public Matter MatterOf(int region)
+        {
+            Native.Check(Native.sweepface_rig_region_matter(Handle, Native.Index(region, nameof(region)),
+                                                            out Matter matter));
+            return matter;
+        }
+    }
+
     /// <summary>A recording or a timeline for the targets of a rig (docs/clips.md). Any number of threads may read
     /// it.</summary>
     public sealed class FaceClip : IDisposable
@@ -449,7 +568,11 @@ namespace Sweepface
         /// <summary>What was repaired or may be wrong in the file.</summary>
         public string[] Warnings => Strings(Native.sweepface_clip_warning);
 
-        /// <summary>Fills the array with the first weights, `seconds` after the first frame.</summary>
+        /// <summary>The regions that the rig had when the clip was read.</summary>
+        public int RegionCount => (int)Native.sweepface_clip_region_count(handle);
+
+        /// <summary>Fills the array with the first of the weights [regions x targets], `seconds` after the first
+        /// frame.</summary>
         public void Weights(double seconds, double[] weights) =>
             Native.Check(Native.sweepface_clip_weights(handle, seconds, weights, Native.Count(weights)));
 
@@ -496,6 +619,27 @@ namespace Sweepface
         }
     }
 
+    /// <summary>Arrays and texts that stay where they are while they are read.</summary>
+    sealed class Pins : IDisposable
+    {
+        readonly List<GCHandle> pins = new List<GCHandle>();
+
+        internal IntPtr Of(Array array)
+        {
+            if (array == null) return IntPtr.Zero;
+            pins.Add(GCHandle.Alloc(array, GCHandleType.Pinned));
+            return pins[pins.Count - 1].AddrOfPinnedObject();
+        }
+
+        internal IntPtr[] Of(string[] texts) =>
+            texts == null ? null : Array.ConvertAll(texts, text => Of(Native.Text(text)));
+
+        public void Dispose()
+        {
+            foreach (GCHandle pin in pins) pin.Free();
+        }
+    }
+
     /// <summary>Two arrays that stay where they are while they are written to.</summary>
     struct Pinned : IDisposable
     {
@@ -520,7 +664,7 @@ namespace Sweepface
         }
     }
 
-    /// <summary>The C interface as sweepface.h, sweepface_head.h and sweepface_clips.h declare it.</summary>
+    /// <summary>The C interface as sweepface.h and the headers beside it declare it.</summary>
     static class Native
     {
 #if !UNITY_EDITOR && (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS)
@@ -543,6 +687,47 @@ namespace Sweepface
                 Data = data;
                 this.stride = (UIntPtr)Index(stride, nameof(stride));
             }
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct BrushIn
+        {
+            readonly IntPtr parts;
+            readonly UIntPtr partCount;
+            readonly IntPtr points;
+            readonly UIntPtr pointCount;
+            readonly IntPtr line;
+            readonly UIntPtr lineCount;
+            readonly IntPtr curves;
+            readonly UIntPtr curveCount;
+            readonly IntPtr nodes, nodeShares;
+            readonly UIntPtr nodeCount;
+            readonly double whole, fade;
+            readonly int throughSpace;
+
+            internal BrushIn(Brush brush, Pins pins)
+            {
+                if ((brush.Points?.Length ?? 0) % 3 != 0 || (brush.Line?.Length ?? 0) % 3 != 0)
+                    throw new ArgumentException("Places are three numbers each.");
+                if ((brush.Nodes?.Length ?? 0) != (brush.NodeShares?.Length ?? 0))
+                    throw new ArgumentException("Each node needs a share.");
+                parts = pins.Of(pins.Of(brush.Parts));
+                partCount = Length(brush.Parts);
+                points = pins.Of(brush.Points);
+                pointCount = Length(brush.Points, 3);
+                line = pins.Of(brush.Line);
+                lineCount = Length(brush.Line, 3);
+                curves = pins.Of(pins.Of(brush.Curves));
+                curveCount = Length(brush.Curves);
+                nodes = pins.Of(pins.Of(brush.Nodes));
+                nodeShares = pins.Of(brush.NodeShares);
+                nodeCount = Length(brush.Nodes);
+                whole = brush.Whole;
+                fade = brush.Fade;
+                throughSpace = brush.ThroughSpace ? 1 : 0;
+            }
+
+            static UIntPtr Length(Array array, int each = 1) => (UIntPtr)((array?.Length ?? 0) / each);
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -604,6 +789,11 @@ namespace Sweepface
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_follow(Handle rig, uint what);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_turn_eyes(Handle rig, out uint eyes);
         [DllImport(Library, CallingConvention = C)] internal static extern double sweepface_rig_tolerance(Handle rig);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_rig_node_count(Handle rig);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_paint(Handle rig, ref BrushIn brush, uint bands, [Out] double[] shares, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_divide(Handle rig, IntPtr[] names, double[] shares, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_rig_region_count(Handle rig);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_rig_region_name(Handle rig, uint region);
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_rig_box(Handle rig, [Out] double[] low, [Out] double[] high);
 
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_create(Handle rig, uint lod, out IntPtr mesh);
@@ -612,6 +802,7 @@ namespace Sweepface
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_mesh_free(IntPtr mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_prepare(Handle mesh, int normals);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_prepare_tangents(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_region_count(Handle mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_point_count(Handle mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_vertex_count(Handle mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_mesh_copies(Handle mesh);
@@ -626,6 +817,7 @@ namespace Sweepface
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_face_free(IntPtr face);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_set_weight(Handle face, uint target, double weight);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_set_weights(Handle face, double[] weights, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_set_region_weights(Handle face, uint region, double[] weights, UIntPtr count);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_evaluate(Handle face, UIntPtr count, Vectors positions, Vectors normals);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_update(Handle face, UIntPtr count, Vectors positions, Vectors normals);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_tangents(Handle face, UIntPtr count, Vectors normals, Vectors tangents);
@@ -635,11 +827,14 @@ namespace Sweepface
 
         [DllImport(Library, CallingConvention = C)] internal static extern Drive sweepface_drive_of(int kind);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_create(double[] weights, UIntPtr count, out IntPtr motion);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_create_regions(double[] weights, UIntPtr count, [In] Matter[] matters, UIntPtr regions, out IntPtr motion);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_copy(Handle motion, out IntPtr copy);
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_motion_free(IntPtr motion);
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_motion_advance(Handle motion, double seconds);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_to(Handle motion, uint weight, double goal, [In] Drive[] drive);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_all(Handle motion, double[] goals, UIntPtr count, [In] Drive[] drive);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_in(Handle motion, uint region, uint weight, double goal, [In] Drive[] drive);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_put_in(Handle motion, uint region, uint weight, double value);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_push(Handle motion, uint weight, double velocityChange, double drag);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_positions(Handle motion, [Out] double[] to, UIntPtr count);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_velocities(Handle motion, [Out] double[] to, UIntPtr count);
@@ -655,6 +850,8 @@ namespace Sweepface
             internal IntPtr Animation, Names;
         }
 
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_divide_by(Handle rig, byte[] text, UIntPtr size, byte[] name);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_region_matter(Handle rig, uint region, out Matter matter);
         [DllImport(Library, CallingConvention = C)] internal static extern ClipOptions sweepface_clip_usual_options();
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_read(Handle rig, byte[] bytes, UIntPtr size, byte[] name, ref ClipOptions options, out IntPtr clip);
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_clip_free(IntPtr clip);
@@ -662,6 +859,7 @@ namespace Sweepface
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_clip_unmatched(Handle clip, uint index);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_clip_undriven(Handle clip, uint index);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_clip_warning(Handle clip, uint index);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_clip_region_count(Handle clip);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_weights(Handle clip, double seconds, [Out] double[] to, UIntPtr count);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_has_head(Handle clip);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_has_eyes(Handle clip);

@@ -194,6 +194,56 @@ static class Plays
         }
     }
 
+    static void MovesInRegions(byte[] bytes)
+    {
+        using (var rig = new FaceRig(bytes))
+        {
+            Expect(rig.RegionNames.Single() == null, "one region at first");
+            rig.Box(out double[] low, out double[] high);
+            var brush = new Brush { Points = new[] { 0, (3 * low[1] + high[1]) / 4, high[2] }, Whole = 5, Fade = 3, ThroughSpace = true };
+            double[] chin = rig.Paint(brush);
+            Expect(chin.Length == rig.NodeCount && chin.Max() == 1 && chin.Min() == 0, "what a brush paints");
+            Expect(rig.Paint(brush, 3).Length == 3 * rig.NodeCount, "bands");
+            Expect(rig.Paint(new Brush { Parts = new[] { "skin" } }).Average() > 0.3, "a material");
+            double[] node = rig.Paint(new Brush { Nodes = new[] { "7" }, NodeShares = new[] { 0.25 } });
+            Expect(node[7] == 0.25 && node.Sum() == 0.25, "a node");
+            Refuses<SweepfaceException>(() => rig.Paint(new Brush { Parts = new[] { "hair" } }), "hair");
+            Refuses<ArgumentException>(() => rig.Paint(new Brush { Points = new double[4] }), "three numbers each");
+            Refuses<ArgumentException>(() => rig.Paint(new Brush { Nodes = new[] { "7" } }), "needs a share");
+            Refuses<ArgumentException>(() => rig.Divide(new[] { "chin" }, new double[3]), "shares for each region");
+            rig.Divide(new[] { "chin" }, chin);
+            Expect(rig.RegionNames.SequenceEqual(new[] { "rest", "chin" }), "names of regions");
+            int jaw = rig.Find("jawOpen"), count = rig.TargetNames.Length;
+            using (var mesh = new FaceMesh(rig))
+            using (var face = new Face(mesh))
+            using (var motion = new FaceMotion(new double[count], new[] {
+                       new Matter { Mass = 1, Stiffness = 1 }, new Matter { Mass = 4, Stiffness = 1, Delay = 0.1 } }))
+            {
+                Expect(mesh.RegionCount == 2, "regions of a mesh");
+                motion.MoveTo(jaw, 1);
+                motion.Advance(0.2);
+                var weights = new double[2 * count];
+                motion.Positions(weights);
+                Expect(weights[jaw] > 0.2 && weights[count + jaw] < weights[jaw], "what is heavy lags behind");
+                motion.PutIn(0, jaw, 0);
+                motion.MoveIn(1, jaw, 0.5, Drive.Of(DriveKind.Cut));
+                motion.Advance(1);
+                motion.Positions(weights);
+                Expect(weights[jaw] == 0 && weights[count + jaw] == 0.5, "goals of one region");
+                face.SetWeights(1, weights.Skip(count).ToArray());
+                var one = new float[3 * mesh.VertexCount];
+                var both = new float[3 * mesh.VertexCount];
+                face.Evaluate(one);
+                face.SetWeights(weights.Skip(count).ToArray());
+                face.Evaluate(both);
+                Expect(Farthest(one, both, one.Length) > 0.1, "weights of one region");
+                Refuses<SweepfaceException>(() => face.SetWeights(2, weights), "2");
+            }
+            rig.Divide(new string[0], new double[0]);
+            Expect(rig.RegionNames.Length == 1, "one region again");
+        }
+    }
+
 #if SWEEPFACE_CLIPS
     static void PlaysClips(byte[] bytes, string take)
     {
@@ -206,6 +256,20 @@ static class Plays
             Expect(clip.Unmatched.Single() == "TongueOut" && clip.Undriven.Length == 41 && clip.Warnings.Length == 0, "names of a clip");
             using (var other = new FaceClip(rig, File.ReadAllBytes(take), take, names: "{\"TongueOut\": \"mouthSmileLeft\"}"))
                 Expect(other.Unmatched.Length == 0, "a map of names");
+            byte[] regions = System.Text.Encoding.UTF8.GetBytes(
+                "{\"regions\": [{\"name\": \"skin\", \"parts\": [\"skin\"], \"mass\": 3, \"delay\": 0.1}]}");
+            rig.Divide(regions, "skin.json");
+            int skin = Array.IndexOf(rig.RegionNames, "skin");
+            Expect(rig.MatterOf(skin).Mass == 3 && rig.MatterOf(1 - skin).Mass == 1, "matters of a text");
+            using (var parted = new FaceClip(rig, File.ReadAllBytes(take), take))
+            {
+                var parts = new double[2 * weights.Length];
+                parted.Weights(clip.Seconds / 2, parts);
+                int jaw = rig.Find("jawOpen");
+                Expect(parted.RegionCount == 2 && parts[skin * weights.Length + jaw] < parts[(1 - skin) * weights.Length + jaw],
+                       "regions of a clip");
+            }
+            Refuses<SweepfaceException>(() => rig.Divide(new byte[] { 7 }, "skin.json"), "skin.json");
             Expect(clip.HasHead && !clip.HasEyes && Math.Abs(clip.Pose(0).Head.Yaw + 0.1) < 1e-9, "angles of a clip");
         }
     }
@@ -249,6 +313,7 @@ static class Plays
         PlaysExpressions(new FaceRig(bytes, arguments[0]), arguments[1]);
         ComesAtLevelsOfDetail(bytes);
         MovesAndTurns(bytes);
+        MovesInRegions(bytes);
         PlaysInUnity(bytes);
 #if SWEEPFACE_CLIPS
         PlaysClips(bytes, arguments[2]);
