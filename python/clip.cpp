@@ -96,23 +96,25 @@ Clip withNames(Clip clip, const py::object& names, const Rig& rig) {
   return other;
 }
 
+}  // namespace
+
 // ---- Weights ----
 
-/// How a clip drives a rig. Warns of names that move and drive nothing, and of what else may
-/// surprise.
-ClipMatch matchWith(const Clip& clip, const Rig& rig) {
+ClipMatch matchWith(const Clip& clip, const Rig& rig, double missed) {
   const std::vector<std::string> targets = targetNamesOf(rig);
   ClipMatch match = matchClip(clip, targets);
   if (!movesAnything(clip, match))
     throw Failure(
         fmt::format("None of the clip's {} names is a target of the rig.", clip.names.size()));
-  auto notes = notesOnClip(clip, match, 0, targets, "The clip");
+  auto notes = notesOnClip(clip, match, missed, targets, "The clip");
   if (const auto idle = idleNames(clip, match); !idle.empty())
     notes.push_back(fmt::format("{} of the clip's {} names drive no target of the rig: {}.",
                                 idle.size(), clip.names.size(), fmt::join(idle, ", ")));
   warn(notes);
   return match;
 }
+
+namespace {
 
 py::array_t<double> weightsOver(const Clip& clip, const Rig& rig, const py::object& times) {
   const ClipMatch match = matchWith(clip, rig);

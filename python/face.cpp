@@ -9,8 +9,11 @@
 
 #include "bindings.hpp"
 #include "following.hpp"
+#include "head.hpp"
+#include "long_work.hpp"
 #include "output.hpp"
 #include "parallel/parallel.hpp"
+#include "regions.hpp"
 
 namespace sweepface::python {
 namespace {
@@ -21,9 +24,13 @@ namespace {
 struct Face {
   std::shared_ptr<const Rig> rig;
   Following following;
+  std::optional<std::vector<Region>> regions;
   RenderMesh mesh;
   Evaluator evaluator;
 
+  std::optional<std::size_t> regionCount() const {
+    return regions ? std::optional(regions->size()) : std::nullopt;
+  }
   std::size_t vertices() const { return static_cast<std::size_t>(evaluator.vertexCount()); }
 };
 
@@ -55,66 +62,64 @@ std::pair<RenderMesh, Evaluator> withMesh(const Rig& rig, const std::optional<Bu
 
 Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vertices,
             const py::object& edgeLength, const py::object& error, bool normals,
-            const py::object& tolerance, bool arcs, bool combine, bool eyes) {
+            const py::object& tolerance, bool arcs, bool combine, bool eyes,
+            const std::string& limits, const py::object& listed) {
   const auto budget = budgetFrom(vertices, edgeLength, error);
   if (budget && level != 0) throw Failure("Give either a level or a budget.");
   checkLevel(level);
   EvaluatorOptions options;
   options.level = budget ? 1 : level, options.normals = normals;
   if (!tolerance.is_none()) options.tolerance = numberFrom(tolerance, "The tolerance");
+  std::optional<std::vector<Region>> regions;
+  if (!listed.is_none()) regions = dividedBy(*rig, listed);
   const Released others;
-  Following following(rig, {arcs, combine, eyes});
+  Following following(rig, {arcs, combine, eyes, limits});
+  if (regions) {
+    following.keepWhole(*regions);
+    options.influences = influencesOf(rig->surface, *regions);
+  }
   auto [mesh, evaluator] = withMesh(following.rig(), budget, options);
-  return {rig, std::move(following), std::move(mesh), std::move(evaluator)};
+  return {rig, std::move(following), std::move(regions), std::move(mesh), std::move(evaluator)};
 }
 
 // ---- Every frame ----
 
-/// Weights of one frame, or of many, with all that follows from them: [F × K].
+/// Weights of one frame, or of many, with all that follows from them: [F × R × K].
 class Frames {
  public:
-  Frames(const Face& face, const py::object& given)
-      : targets_(face.following.rig().targets.size()) {
-    const std::size_t own = face.rig->targets.size();
-    const Weights told = toldBy(*face.rig, given);
-    weights_.resize(count_ * targets_);
+  Frames(const Face& face, const py::object& given, const py::object& look) {
+    const std::size_t own = face.rig->targets.size(), all = face.following.rig().targets.size(),
+                      regions = face.regionCount().value_or(1);
+    const auto told = RegionalWeights::from(*face.rig, given, face.regionCount());
+    count_ = told.frames, isOne_ = told.isOne, size_ = regions * all;
+    const Looks looks = Looks::from(look, count_);
+    if (looks.areTold() && !face.following.turnsEyes())
+      throw Failure("The face was made without eyes that turn; make it with them.");
+    weights_.resize(count_ * size_);
     for (std::size_t f = 0; f < count_; ++f)
-      face.following.extend(std::span(told).subspan(f * own, own),
-                            std::span(weights_).subspan(f * targets_, targets_));
+      for (std::size_t r = 0; r < regions; ++r)
+        face.following.extend(std::span(told.weights).subspan((f * regions + r) * own, own),
+                              looks.of(f),
+                              std::span(weights_).subspan((f * regions + r) * all, all));
   }
 
   bool isOne() const { return isOne_; }
   std::size_t count() const { return count_; }
   std::span<const double> of(std::size_t frame) const {
-    return std::span(weights_).subspan(frame * targets_, targets_);
+    return std::span(weights_).subspan(frame * size_, size_);
   }
 
  private:
-  Weights toldBy(const Rig& rig, const py::object& given) {
-    if (given.is_none() || isMapping(given)) return weightsFrom(rig, given);
-    const auto rows = as<Doubles>(given, "Weights", "None, a dict, or an array [K] or [F, K]");
-    if (rows.ndim() != 2) return weightsFrom(rig, rows);
-    if (static_cast<std::size_t>(rows.shape(1)) != rig.targets.size())
-      throw Failure(fmt::format("There are {} weights a frame for {} targets.", rows.shape(1),
-                                rig.targets.size()));
-    count_ = static_cast<std::size_t>(rows.shape(0));
-    isOne_ = false;
-    Weights weights(rows.data(), rows.data() + rows.size());
-    checkWeights(weights);
-    return weights;
-  }
-
-  std::size_t targets_, count_ = 1;
+  std::size_t count_ = 1, size_ = 0;
   bool isOne_ = true;
   Weights weights_;
 };
 
-void evaluateAll(const Face& face, const Frames& frames, const Output& positions,
-                 const Output& normals) {
-  const Released others;
+void evaluateThese(const Face& face, const Frames& frames, const Output& positions,
+                   const Output& normals, const std::atomic<bool>* cancel) {
   parallelRanges(frames.count(), [&](std::size_t first, std::size_t end) {
     std::vector<std::byte> scratch(face.evaluator.scratchBytes());
-    for (std::size_t f = first; f < end; ++f) {
+    for (std::size_t f = first; f < end && !(cancel && *cancel); ++f) {
       Evaluation frame;
       frame.evaluator = &face.evaluator;
       frame.weights = frames.of(f);
@@ -127,9 +132,18 @@ void evaluateAll(const Face& face, const Frames& frames, const Output& positions
   });
 }
 
-py::object evaluate(const Face& face, const py::object& weights, const py::object& positions,
-                    const py::object& normals) {
-  const Frames frames(face, weights);
+void evaluateAll(const Face& face, const Frames& frames, const Output& positions,
+                 const Output& normals) {
+  constexpr double kLong = 1e7;  // vertices: some ten milliseconds
+  if (static_cast<double>(frames.count()) * static_cast<double>(face.vertices()) < kLong)
+    return released([&] { evaluateThese(face, frames, positions, normals, nullptr); });
+  LongWork work;
+  work.run([&] { evaluateThese(face, frames, positions, normals, work.cancel()); });
+}
+
+py::object evaluate(const Face& face, const py::object& weights, const py::object& look,
+                    const py::object& positions, const py::object& normals) {
+  const Frames frames(face, weights, look);
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(face.vertices()), 3};
   if (!frames.isOne()) shape.insert(shape.begin(), static_cast<py::ssize_t>(frames.count()));
   const Output places = Output::from(positions, shape, "Positions");
@@ -170,7 +184,7 @@ void addFace(py::module_& m) {
           py::init(&faceOf), py::arg("rig").none(false), "level"_a = 0, py::kw_only(),
           "vertices"_a = py::none(), "edge_length"_a = py::none(), "error"_a = py::none(),
           "normals"_a = true, "tolerance"_a = py::none(), "arcs"_a = false, "combine"_a = false,
-          "eyes"_a = false,
+          "eyes"_a = false, "limits"_a = "", "regions"_a = py::none(),
           "level 0 has the source's vertices in their order; level N every edge of the source cut "
           "into N. Instead of a level, a budget: as close to the surface as a number of vertices "
           "allows, edges no longer than a length, or triangles no further from the surface than "
@@ -180,14 +194,21 @@ void addFace(py::module_& m) {
           "one makes larger tables. With "
           "arcs, targets that turn something move it on arcs; with combine, A_B goes by the "
           "product of A and B, and A_50 stands in for A at 0.5; with eyes, eyeballs turn rigidly "
-          "by the eyeLook targets.")
+          "by the eyeLook targets or by angles; limits like '0:1,jawOpen=0:0.8' clamp weights. "
+          "regions, as Rig.divide takes or returns them, have weights of their own.")
       .def(
-          "evaluate", &evaluate, "weights"_a = py::none(), py::kw_only(), "positions"_a = true,
-          "normals"_a = false,
+          "evaluate", &evaluate, "weights"_a = py::none(), py::kw_only(), "look"_a = py::none(),
+          "positions"_a = true, "normals"_a = false,
           "Vertices under weights: None, a dict of names and weights, or an array [K]; an array "
-          "[F, K] evaluates F frames on all cores. positions and normals are whether they are "
+          "[F, K] evaluates F frames on all cores. A face in regions takes [R, K] or [F, R, K]. "
+          "look, by 'left_eye' and 'right_eye', is yaw, pitch and roll in radians, one [3] or [F, "
+          "3], by which eyes turn instead of the eyeLook weights, as Clip.angles returns them. "
+          "positions and normals are whether they are "
           "wanted, or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns those that are "
           "wanted.")
+      .def_property_readonly(
+          "regions", [](const Face& face) { return face.regions.value_or(std::vector<Region>{}); },
+          "Those that have weights of their own, in their order; none if it is not divided.")
       .def_property_readonly("vertex_count", &Face::vertices, "Rows of positions.")
       .def_property_readonly(
           "triangles",
@@ -217,7 +238,7 @@ void addFace(py::module_& m) {
       .def(
           "bound",
           [](const Face& face, const py::object& weights) {
-            const Frames frames(face, weights);
+            const Frames frames(face, weights, py::none());
             if (!frames.isOne()) throw Failure("A bound is that of one frame: weights [K].");
             return face.evaluator.positionBound(frames.of(0));
           },

@@ -9,6 +9,7 @@ namespace sweepface::python {
 
 Following::Following(std::shared_ptr<const Rig> rig, const FollowingOptions& options)
     : rig_(std::move(rig)) {
+  if (!options.limits.empty()) limits_ = valueOf(Limits::parse(*rig_, options.limits));
   if (!options.arcs && !options.combine && !options.eyes) return;
   const auto extended = std::make_shared<Rig>(*rig_);
   std::vector<Follower> followers;
@@ -30,9 +31,11 @@ Following::Following(std::shared_ptr<const Rig> rig, const FollowingOptions& opt
   rig_ = extended;
 }
 
-void Following::extend(std::span<const double> own, std::span<double> all) const {
+void Following::extend(std::span<const double> own, const HeadPose* look,
+                       std::span<double> all) const {
   std::ranges::copy(own, all.begin());
-  eyes_.apply(all);
+  limits_.apply(all);
+  look ? eyes_.apply(*look, all) : eyes_.apply(all);
   followers_.apply(all);
   // Products of large weights may be larger than a weight can be.
   for (double& w : all) w = std::clamp(w, -kMostPlausibleWeight, kMostPlausibleWeight);

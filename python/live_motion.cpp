@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "bindings.hpp"
+#include "drives.hpp"
 #include "io/drive_numbers.hpp"
 
 namespace sweepface::python {
-namespace {
 
-/// A drive by its name, and what else was told of it.
 Drive driveFrom(const std::string& name, const py::kwargs& told) {
   Drive drive = valueOf(driveFromName(name));
   const auto numbers = io::numbersOf(drive);
@@ -22,6 +21,13 @@ Drive driveFrom(const std::string& name, const py::kwargs& told) {
   }
   return drive;
 }
+
+void checkPassing(double seconds) {
+  if (!(seconds >= 0 && seconds <= kMostSeconds))
+    throw Failure("Time passes by 0 to 1e10 seconds.");
+}
+
+namespace {
 
 using WriteState = void (MotionState::*)(std::span<double>) const noexcept;
 
@@ -48,8 +54,7 @@ void addLiveMotion(py::module_& m) {
       .def(
           "advance",
           [](MotionState& state, double seconds) {
-            if (!(seconds >= 0 && seconds <= kMostSeconds))
-              throw Failure("Time passes by 0 to 1e10 seconds.");
+            checkPassing(seconds);
             state.advance(seconds);
           },
           "seconds"_a, "Lets time pass.")

@@ -34,10 +34,15 @@ PYBIND11_MODULE(_core, m) {
   addTrajectory(m);
   addMotion(m);
   addLiveMotion(m);
+  addRegions(m);
+  addRegionalMotion(m);
   addPose(m);
   addClip(m);
   addRig(m);
   addClipsOfRigs(m);
+  addRegionsOfRigs(m);
+  addTimeline(m);
+  addHead(m);
   addConversion(m);
   addMeasurement(m);
   addFace(m);

@@ -4,15 +4,16 @@
 #include "sweepface/picture.hpp"
 
 #include "bindings.hpp"
+#include "long_work.hpp"
 
 namespace sweepface::python {
 namespace {
 
-Image shot(const Rig& rig, const Weights& weights, PictureSize size, const View& view,
-           Style style) {
+Image shot(const Rig& rig, const Weights& weights, PictureSize size, const View& view, Style style,
+           const std::atomic<bool>* cancel) {
   const FaceScenes scenes(rig, lodFor(rig.surface, style, size));
   const Camera camera = frameCamera(scenes.drawn(weights), view, size);
-  return valueOf(render(scenes.scene(weights, style), camera, size));
+  return valueOf(render(scenes.scene(weights, style), camera, size, cancel));
 }
 
 void savePng(const std::filesystem::path& path,
@@ -38,7 +39,8 @@ py::array_t<std::uint8_t> renderRig(const Rig& rig, const py::object& weights, I
   if (how == Style::error || how == Style::angle)
     throw Failure("The style '" + style + "' needs meshes to compare with: use the tool.");
   const Weights blended = weightsFrom(rig, weights);
-  const Image image = released([&] { return shot(rig, blended, size, from, how); });
+  LongWork work;
+  const Image image = work.run([&] { return shot(rig, blended, size, from, how, work.cancel()); });
   return arrayOf(std::span<const std::uint8_t>(image.rgb), {height, width, 3});
 }
 

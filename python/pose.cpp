@@ -7,6 +7,7 @@
 #include "sweepface/nearest.hpp"
 
 #include "bindings.hpp"
+#include "regions.hpp"
 
 namespace sweepface::python {
 namespace {
@@ -164,7 +165,36 @@ py::dict joinsOf(const Pose& pose, int samples) {
   return table;
 }
 
+/// Where the nodes of the wireframe are.
+py::array_t<double> nodesOf(const Pose& pose) {
+  const Surface& surface = pose.rig->surface;
+  const Wireframe& wireframe = surface.wireframe();
+  std::vector<Vec3> places(wireframe.nodes.size());
+  for (Index a = 0; a < static_cast<Index>(wireframe.arcs.size()); ++a) {
+    const Arc& arc = wireframe.arcs[a];
+    places[arc.from] = surface.pointOnArc(pose.vectors, a, 0);
+    places[arc.to] = surface.pointOnArc(pose.vectors, a, arc.edges);
+  }
+  return arrayOfPoints(places);
+}
+
 }  // namespace
+
+Pose::Pose(std::shared_ptr<const Rig> of, const py::object& given, const py::object& regions)
+    : rig(std::move(of)) {
+  if (regions.is_none()) {
+    weights = weightsFrom(*rig, given);
+    vectors = blend(*rig, weights);
+    return;
+  }
+  const std::vector<Region> divided = dividedBy(*rig, regions);
+  RegionalWeights told = RegionalWeights::from(*rig, given, divided.size());
+  if (!told.isOne) throw Failure("A pose is that of one frame: weights [K] or [R, K].");
+  vectors.resize(static_cast<std::size_t>(rig->surface.vectorCount()));
+  blend(*rig, divided, told.weights, vectors);
+  weights = std::move(told.weights);
+  weights.resize(rig->targets.size());
+}
 
 void addPose(py::module_& m) {
   using namespace py::literals;
@@ -188,6 +218,7 @@ void addPose(py::module_& m) {
            "The boundary curves and the control curves beside them, by 'boundary' and 'control': "
            "lists of points [N, 3]; by 'boundary_arcs' and 'control_arcs', the arc that each is or "
            "lies beside.")
+      .def("nodes", &nodesOf, "The places of the wireframe's nodes: [nodes, 3].")
       .def(
           "joins", &joinsOf, "samples"_a = 5,
           "How the two sides of every arc agree, by names of arrays [A]: join_class (boundary, c2, "

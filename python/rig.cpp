@@ -6,10 +6,12 @@
 #include "sweepface/fit.hpp"
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
+#include "sweepface/limits.hpp"
 #include "sweepface/strip.hpp"
 
 #include "bindings.hpp"
 #include "clip.hpp"
+#include "head.hpp"
 #include "long_work.hpp"
 #include "picture.hpp"
 #include "pose.hpp"
@@ -30,7 +32,8 @@ SharedRig loaded(const std::filesystem::path& path, std::size_t memory) {
 }
 
 void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
-             bool quantize, const py::object& weights, const Clip* clip, double keyTolerance) {
+             bool quantize, const py::object& weights, const Clip* clip, double keyTolerance,
+             bool head, const py::object& pivot) {
   checkKind(path, ".glb");
   GlbOptions options;
   options.lod = level;
@@ -39,6 +42,10 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, boo
   Clip played;
   if (clip) played = clipOfTargets(rig, *clip), options.clip = &played;
   options.keyTolerance = keyTolerance;
+  HeadTrack turns;
+  if (head) turns = headTrackOf(rig, clip, pivot), options.head = &turns;
+  if (!head && !pivot.is_none())
+    throw Failure("The model turns about the pivot with head only; leave the pivot out.");
   released([&] { return valueOf(writeFile(path, valueOf(formatGlb(rig, options)))); });
 }
 
@@ -142,14 +149,15 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           "path"_a, "Writes a .sweep file beside the path, then renames it.")
       .def("save_glb", &saveGlb, "path"_a, py::kw_only(), "level"_a = 0, "morph_normals"_a = false,
            "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr,
-           "key_tolerance"_a = 0,
+           "key_tolerance"_a = 0, "head"_a = false, "pivot"_a = py::none(),
            "Writes a GLB with the targets as morph targets, in the scene that came with the rig, "
            "if one did. level 0: the source's vertices; N: every edge cut into N. morph_normals "
            "writes "
            "normals of the targets, too; quantize stores whole numbers (KHR_mesh_quantization); "
            "weights are those at which the face is shown. A clip becomes "
            "an animation, in as few keys as keep its weights within key_tolerance, if that is "
-           "given.")
+           "given. With head, the whole model turns by the clip's angles of the head, about the "
+           "pivot [3] or else its middle.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
            "Writes an expression as an OBJ, in the source's order, with the surface's normals.")
       .def("packed", &packed, "tolerance"_a = 0, py::kw_only(), "texture_bits"_a = 0,
@@ -213,9 +221,26 @@ void addRig(py::module_& m) {
   addFiles(rig);
   addContents(rig);
   rig.def(
-         "pose", [](const SharedRig& r, const py::object& weights) { return Pose(r, weights); },
-         "weights"_a = py::none(),
-         "The face under weights: None, a dict of names and weights, or an array [K].")
+         "pose",
+         [](const SharedRig& r, const py::object& weights, const py::object& regions) {
+           return Pose(r, weights, regions);
+         },
+         "weights"_a = py::none(), "regions"_a = py::none(),
+         "The face under weights: None, a dict of names and weights, or an array [K]. In regions, "
+         "an array [R, K] has weights for each.")
+      .def(
+          "limits",
+          [](const Rig& r, const std::string& limits) {
+            const Limits ranges = valueOf(Limits::parse(r, limits));
+            std::vector<double> bounds;
+            for (const auto& [low, high] : ranges.ranges())
+              bounds.insert(bounds.end(), {low, high});
+            return arrayOf(std::span<const double>(bounds),
+                           {static_cast<py::ssize_t>(bounds.size() / 2), 2});
+          },
+          "limits"_a,
+          "The least and the greatest weights [K, 2] of limits as the tool takes them: "
+          "'0:1,jawOpen=0:0.8'; infinite where there are none.")
       .def(
           "meshes", [](const Rig& r) { return RigSource{meshesOf(r), r.scene, {}}; },
           "The neutral and its targets as meshes, in the source's order.")

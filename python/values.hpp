@@ -59,8 +59,11 @@ T as(const py::handle& object, const char* what, const char* kind) {
   try {
     return py::cast<T>(object);
   } catch (const py::cast_error&) {
-  } catch (const py::error_already_set& error) {  // NumPy's own
-    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+  } catch (const py::reference_cast_error&) {     // of None in a list
+  } catch (const py::error_already_set& error) {  // NumPy's own, or of a mapping for a list
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError) &&
+        !error.matches(PyExc_LookupError))
+      throw;
   }
   throw Failure(std::string(what) + " must be " + kind + ".");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -193,8 +194,9 @@ struct StudioParts;
 /// once. Pictures are the same for any number of threads.
 class Studio {
  public:
-  /// Fails if the scene makes no sense: an index out of range, a position that is not finite.
-  static Result<Studio> make(Scene scene);
+  /// Fails if the scene makes no sense: an index out of range, a position that is not finite. As
+  /// soon as `cancel` is true, this and shoot() fail soon.
+  static Result<Studio> make(Scene scene, const std::atomic<bool>* cancel = nullptr);
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;
   ~Studio();
@@ -207,8 +209,9 @@ class Studio {
   std::unique_ptr<StudioParts> parts_;
 };
 
-/// One picture of a scene.
-Result<Image> render(Scene scene, const Camera& camera, PictureSize size);
+/// One picture of a scene. Fails soon once `cancel` is true.
+Result<Image> render(Scene scene, const Camera& camera, PictureSize size,
+                     const std::atomic<bool>* cancel = nullptr);
 
 // ---- Faces ----
 

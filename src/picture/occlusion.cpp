@@ -48,10 +48,11 @@ struct Arrival {
 /// Computes how much light arrives at every vertex, and returns what `answer` makes of it.
 std::vector<float> exposure(const Obstacles& obstacles, std::span<const Vec3> positions,
                             std::span<const Vec3> normals, const std::vector<Vec3>& directions,
-                            auto brightness, auto answer) {
+                            auto brightness, auto answer, const std::atomic<bool>* cancel) {
   const double near = 1e-3 * obstacles.size(), far = 2 * obstacles.size();
   std::vector<float> result(positions.size());
   parallelFor(std::size_t{0}, positions.size(), [&](std::size_t v) {
+    if (isCancelled(cancel)) return;
     Arrival light;
     for (const Vec3& d : directions) {
       const double slope = dot(normals[v], d);
@@ -128,23 +129,25 @@ bool Obstacles::blocks(const Vec3& origin, const Vec3& direction, double near, d
 }
 
 std::vector<float> skyExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
-                               std::span<const Vec3> normals) {
+                               std::span<const Vec3> normals, const std::atomic<bool>* cancel) {
   // Brighter above than below, where light is reflected by the ground.
   const auto brightness = [](const Vec3& direction) { return 0.65 + 0.35 * direction.y; };
-  return exposure(obstacles, positions, normals, sphere(kSkyDirections), brightness,
-                  [](std::size_t, const Arrival& a) { return a.all > 0 ? a.arrived / a.all : 1; });
+  return exposure(
+      obstacles, positions, normals, sphere(kSkyDirections), brightness,
+      [](std::size_t, const Arrival& a) { return a.all > 0 ? a.arrived / a.all : 1; }, cancel);
 }
 
 std::vector<float> lampExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
                                 std::span<const Vec3> normals, const Vec3& towards, double radius,
-                                std::span<const float> sky) {
+                                std::span<const float> sky, const std::atomic<bool>* cancel) {
   return exposure(
       obstacles, positions, normals, disc(kLampDirections, towards, radius),
       [](const Vec3&) { return 1.0; },
       [&](std::size_t v, const Arrival& a) {
         const double above = static_cast<double>(a.above) / kLampDirections;
         return (1 - above) * sky[v] + (a.all > 0 ? above * a.arrived / a.all : 0);
-      });
+      },
+      cancel);
 }
 
 }  // namespace sweepface

@@ -66,6 +66,7 @@ struct StudioParts {
   Light colour;
   std::vector<Light> vertexColours, triangleColours;
   std::vector<float> sky;  // [V], or empty where the finish has no shadows
+  const std::atomic<bool>* cancel = nullptr;
 
   Light colourAt(Index triangle, const std::array<double, 3>& weights) const {
     if (!triangleColours.empty()) return triangleColours[triangle];
@@ -75,6 +76,8 @@ struct StudioParts {
 };
 
 namespace {
+
+std::unexpected<Error> interrupted() { return fail("Drawing was interrupted."); }
 
 /// Takes one picture.
 class Photograph {
@@ -89,14 +92,17 @@ class Photograph {
         raster_(scene_, camera, size) {
     if (!studio.sky.empty())
       lamp_ = lampExposure(studio.obstacles, scene_.positions, scene_.normals, lamps_.key,
-                           kKeyRadius, studio.sky);
+                           kKeyRadius, studio.sky, studio.cancel);
   }
 
-  Image take() const {
+  Result<Image> take() const {
     Image image = Image::filled(size_, scene_.background);
-    parallelFor(Index{0}, raster_.tileCount(), [&](Index tile) { develop(tile, image); });
+    parallelFor(Index{0}, raster_.tileCount(), [&](Index tile) {
+      if (!isCancelled(studio_.cancel)) develop(tile, image);
+    });
     drawStrokes(image);
     drawLabels(image);
+    if (isCancelled(studio_.cancel)) return interrupted();
     return image;
   }
 
@@ -184,7 +190,9 @@ class Photograph {
       std::size_t last = first;
       while (last < strokes.size() && strokes[last].colour == strokes[first].colour) ++last;
       std::vector<std::vector<Vec2>> lines(last - first);
-      parallelFor(first, last, [&](std::size_t k) { lines[k - first] = seen(strokes[k]); });
+      parallelFor(first, last, [&](std::size_t k) {
+        if (!isCancelled(studio_.cancel)) lines[k - first] = seen(strokes[k]);
+      });
       Mask mask(image);
       for (std::size_t k = first; k < last; ++k)
         for (std::size_t p = 0; p + 1 < lines[k - first].size(); p += 2)
@@ -275,18 +283,19 @@ Studio::Studio(Studio&&) noexcept = default;
 Studio& Studio::operator=(Studio&&) noexcept = default;
 Studio::~Studio() = default;
 
-Result<Studio> Studio::make(Scene scene) {
+Result<Studio> Studio::make(Scene scene, const std::atomic<bool>* cancel) {
   if (auto ok = checkScene(scene); !ok) return std::unexpected(ok.error());
   auto obstacles = Obstacles::make(scene.positions, scene.triangles);
   if (!obstacles) return std::unexpected(obstacles.error());
   auto parts = std::make_unique<StudioParts>(
-      StudioParts{std::move(scene), std::move(*obstacles), {}, {}, {}, {}});
+      StudioParts{std::move(scene), std::move(*obstacles), {}, {}, {}, {}, cancel});
   const Scene& s = parts->scene;
   parts->colour = toLight(s.colour);
   parts->vertexColours = toLights(s.vertexColours);
   parts->triangleColours = toLights(s.triangleColours);
   if (s.finish == Finish::skin || s.finish == Finish::matte)
-    parts->sky = skyExposure(parts->obstacles, s.positions, s.normals);
+    parts->sky = skyExposure(parts->obstacles, s.positions, s.normals, cancel);
+  if (isCancelled(cancel)) return interrupted();
   return Studio(std::move(parts));
 }
 
@@ -297,8 +306,9 @@ Result<Image> Studio::shoot(const Camera& camera, PictureSize size) const {
   return Photograph(*parts_, camera, size).take();
 }
 
-Result<Image> render(Scene scene, const Camera& camera, PictureSize size) {
-  const Result<Studio> studio = Studio::make(std::move(scene));
+Result<Image> render(Scene scene, const Camera& camera, PictureSize size,
+                     const std::atomic<bool>* cancel) {
+  const Result<Studio> studio = Studio::make(std::move(scene), cancel);
   if (!studio) return std::unexpected(studio.error());
   return studio->shoot(camera, size);
 }

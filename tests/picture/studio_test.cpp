@@ -246,6 +246,17 @@ TEST(Studio, RefusesScenesThatMakeNoSense) {
   EXPECT_TRUE(refuses([=](Scene& s) { s.labels.push_back({{nan, 0, 0}, "", kRed}); }, "label"));
 }
 
+TEST(Studio, EndsWhenItIsCancelled) {
+  std::atomic<bool> cancel = false;
+  const auto studio = Studio::make(sphere(), &cancel);
+  ASSERT_TRUE(studio.has_value());
+  EXPECT_TRUE(studio->shoot(before(), {100, 100}).has_value());
+  cancel = true;
+  EXPECT_TRUE(failsWith(studio->shoot(before(), {100, 100}), {"interrupted"}));
+  EXPECT_TRUE(failsWith(Studio::make(sphere(), &cancel), {"interrupted"}));
+  EXPECT_TRUE(failsWith(render(sphere(), before(), {100, 100}, &cancel), {"interrupted"}));
+}
+
 TEST(Studio, RefusesSizesThatMakeNoSense) {
   const auto studio = Studio::make(sphere());
   ASSERT_TRUE(studio.has_value());

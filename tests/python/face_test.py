@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 import sweepface
-from faces import SAMPLE, FaceTest, sheet
+from faces import SAMPLE, FaceTest, interrupted, sheet
 
 OPEN = {"jawOpen": 0.7, "eyeBlinkLeft": 0.4}
 
@@ -147,6 +147,39 @@ class Faces(FaceTest):
         self.assertTrue(np.allclose(many[0] - many[1], [0.25, 0.5, -0.5], atol=0.02))
         with self.refuses("No target is named after others"):
             sweepface.Face(self.rig, combine=True)
+
+    def test_keep_weights_within_limits(self):
+        limited = sweepface.Face(self.rig, limits="0:1,jawOpen=0.2:0.8")
+        bounds = self.rig.limits("0:1,jawOpen=0.2:0.8")
+        self.assertEqual(bounds.shape, (42, 2))
+        self.assertTrue(np.array_equal(bounds[self.rig.target("jawOpen")], [0.2, 0.8]))
+        self.assertTrue(np.isinf(self.rig.limits("jawOpen=0:1")[self.rig.target("eyeBlinkLeft")]).all())
+        for jaw, blink in ((3, 2), (-1, -1), (0.5, 0.5)):
+            weights = self.rig.weights({"jawOpen": jaw, "eyeBlinkLeft": blink})
+            clipped = np.clip(weights, *bounds.T)
+            self.assertTrue(np.array_equal(limited.evaluate(weights), self.face.evaluate(clipped)))
+        many = limited.evaluate([np.full(42, 9), np.zeros(42)])
+        self.assertTrue(np.array_equal(many[0], self.face.evaluate(np.clip(np.full(42, 9), *bounds.T))))
+        turning = sweepface.Face(self.rig, limits="0:0.5", eyes=True)
+        half = sweepface.Face(self.rig, eyes=True).evaluate({"eyeLookOutLeft": 0.5})
+        self.assertTrue(np.array_equal(turning.evaluate({"eyeLookOutLeft": 1}), half))
+        for limits, sentence in (("1:0", "lower one first"), ("0", "0:1"), ("frown=0:1", "frown"), ("0:1,0:2", "twice")):
+            with self.refuses(sentence):
+                sweepface.Face(self.rig, limits=limits)
+            with self.refuses(sentence):
+                self.rig.limits(limits)
+
+    def test_end_long_work_when_they_are_interrupted(self):
+        program = (
+            "face = sweepface.Face(rig, 4)\n"
+            "weights = np.random.default_rng(1).random((250, 42))\n"
+            "normals = np.full((250, face.vertex_count, 3), 9, np.float32)\n"
+            "def work(): face.evaluate(weights, positions=False, normals=normals)\n"
+            "def left(): return (normals[:, 0, 0] == 9).sum()\n"
+        )
+        word, _, left = interrupted(program, 0.01)
+        self.assertEqual(word, "interrupted")
+        self.assertGreater(int(left), 0)
 
     def test_are_made_of_rigs_alone(self):
         with self.assertRaises(TypeError):

@@ -9,7 +9,7 @@ import unittest
 
 import numpy as np
 import sweepface
-from faces import SAMPLE, FaceTest, sheet
+from faces import SAMPLE, FaceTest, interrupted, sheet
 
 
 class Files(FaceTest):
@@ -116,6 +116,12 @@ class Contents(FaceTest):
             self.rig.render(style="error")
         with self.refuses("16"):
             self.rig.render(width=1)
+
+    def test_are_not_shown_when_that_is_interrupted(self):
+        program = "def work(): rig.render(width=4000, height=4000)\ndef left(): return 0\n"  # takes half a minute
+        word, seconds, _ = interrupted(program, 0.1)
+        self.assertEqual(word, "interrupted")
+        self.assertLess(float(seconds), 10)
 
 
 class Poses(FaceTest):

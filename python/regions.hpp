@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweepface/regions.hpp"
+
+#include "values.hpp"
+
+namespace sweepface::python {
+
+/// Regions that Python lists, as they are; messages call them "Regions".
+std::vector<Region> regionsIn(const py::object& listed);
+/// The face divided into such regions, the rest first.
+std::vector<Region> dividedBy(const Rig& rig, const py::object& listed);
+
+std::vector<std::string> namesOf(std::span<const Region> regions);
+std::vector<Matter> mattersOf(std::span<const Region> regions);
+
+/// Weights of all regions in one frame or many.
+struct RegionalWeights {
+  std::size_t frames = 1;
+  bool isOne = true;  ///< given without an axis for frames
+  Weights weights;    ///< [frames × regions × targets]
+
+  /// From None, a dict or an array [K], which count in all regions; or [F, K] of a face that is not
+  /// divided (no number of regions), [R, K] or [F, R, K] of one that is. R may be 1 for all.
+  static RegionalWeights from(const Rig& rig, const py::object& given,
+                              std::optional<std::size_t> regions);
+};
+
+}  // namespace sweepface::python
