@@ -194,8 +194,8 @@ struct StudioParts;
 /// once. Pictures are the same for any number of threads.
 class Studio {
  public:
-  /// Fails if the scene makes no sense: an index out of range, a position that is not finite. As
-  /// soon as `cancel` is true, this and shoot() fail soon.
+  /// Fails if the scene makes no sense: an index out of range, a position that is not finite. Once
+  /// `cancel` is true, this and shoot() fail soon; it must outlive the studio.
   static Result<Studio> make(Scene scene, const std::atomic<bool>* cancel = nullptr);
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;
