@@ -79,7 +79,7 @@ Result<Obstacles> Obstacles::make(std::span<const Vec3> positions,
   o.centre_ = box.centre();
   if (const double size = norm(box.size()); size > 0) o.size_ = size;
 
-  o.device_.reset(rtcNewDevice(nullptr));
+  o.device_.reset(rtcNewDevice("set_affinity=0"));  // threads run where the system likes
   if (!o.device_) return noMemory();
   o.scene_.reset(rtcNewScene(o.device_.get()));
   if (!o.scene_) return noMemory();
