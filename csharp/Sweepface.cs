@@ -166,7 +166,8 @@ namespace Sweepface
         public double[] Paint(Brush brush, int bands = 1)
         {
             if (brush == null) throw new ArgumentNullException(nameof(brush));
-            var shares = new double[(long)Native.Index(bands, nameof(bands)) * NodeCount];
+            if (bands < 1 || bands > 32) throw new ArgumentOutOfRangeException(nameof(bands));
+            var shares = new double[bands * NodeCount];
             using (var pins = new Pins())
             {
                 var told = new Native.BrushIn(brush, pins);

@@ -171,7 +171,9 @@ void addClip(py::module_& m) {
       .def_readonly("names", &Clip::names)
       .def_readonly("title", &Clip::title, "Of the animation in its file, or empty.")
       .def_property_readonly(
-          "times", [](const Clip& clip) { return arrayOf(clip.times); }, "[F] seconds.")
+          "times", [](const Clip& clip) { return arrayOf(clip.times); },
+          "[F] seconds; those of a capture are of the day.")
+      .def_property_readonly("seconds", &Clip::seconds, "From the first frame to the last.")
       .def_property_readonly(
           "weights",
           [](const Clip& clip) {

@@ -202,7 +202,9 @@ void addFace(py::module_& m) {
           "Vertices under weights: None, a dict of names and weights, or an array [K]; an array "
           "[F, K] evaluates F frames on all cores. A face in regions takes [R, K] or [F, R, K]. "
           "look, by 'left_eye' and 'right_eye', is yaw, pitch and roll in radians, one [3] or [F, "
-          "3], by which eyes turn instead of the eyeLook weights, as Clip.angles returns them. "
+          "3], by which eyes turn instead of the eyeLook weights, as Clip.angles returns them; an "
+          "eye "
+          "that is not named looks ahead. "
           "positions and normals are whether they are "
           "wanted, or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns those that are "
           "wanted.")
@@ -239,7 +241,8 @@ void addFace(py::module_& m) {
           "bound",
           [](const Face& face, const py::object& weights) {
             const Frames frames(face, weights, py::none());
-            if (!frames.isOne()) throw Failure("A bound is that of one frame: weights [K].");
+            if (!frames.isOne())
+              throw Failure("A bound is that of one frame: weights [K], or [R, K] of regions.");
             return face.evaluator.positionBound(frames.of(0));
           },
           "weights"_a = py::none(),

@@ -102,9 +102,11 @@ HeadTrack headTrackOf(const Rig& rig, const Clip* clip, const py::object& pivot)
   if (!clip) throw Failure("The head turns by the angles of a clip; give one.");
   const ClipAngles angles(*clip);
   if (!angles.head()) throw Failure("The clip has no angles of the head; leave head out.");
-  HeadTrack track{clip->times, {}, {}};
-  for (const double time : clip->times)
-    track.rotations.push_back(quaternionOf(angles.at(*clip, time - clip->times.front()).head));
+  HeadTrack track;
+  for (const double time : clip->times) {
+    track.times.push_back(time - clip->times.front());
+    track.rotations.push_back(quaternionOf(angles.at(*clip, track.times.back()).head));
+  }
   if (pivot.is_none()) {
     const Tessellation grid(rig.surface, 1);
     track.pivot = Box(grid.positions(blend(rig, {}))).centre();
@@ -112,8 +114,8 @@ HeadTrack headTrackOf(const Rig& rig, const Clip* clip, const py::object& pivot)
   }
   const auto place = as<Doubles>(pivot, "The pivot", "three numbers");
   const auto x = numbersIn(place, "The pivot");
-  if (x.size() != 3 || !std::ranges::all_of(x, [](double c) { return std::isfinite(c); }))
-    throw Failure("The pivot must be three finite numbers.");
+  if (x.size() != 3 || !std::ranges::all_of(x, [](double c) { return std::abs(c) <= 1e30; }))
+    throw Failure("The pivot must be three numbers of single precision.");
   track.pivot = {x[0], x[1], x[2]};
   return track;
 }

@@ -12,7 +12,9 @@ namespace {
 Image shot(const Rig& rig, const Weights& weights, PictureSize size, const View& view, Style style,
            const std::atomic<bool>* cancel) {
   const FaceScenes scenes(rig, lodFor(rig.surface, style, size));
+  if (*cancel) return {};
   const Camera camera = frameCamera(scenes.drawn(weights), view, size);
+  if (*cancel) return {};
   return valueOf(render(scenes.scene(weights, style), camera, size, cancel));
 }
 

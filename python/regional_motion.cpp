@@ -29,7 +29,7 @@ struct NamedMotion {
 };
 
 NamedMotion motionOf(const Doubles& weights, const py::object& listed) {
-  const std::vector<Region> regions = regionsIn(listed);
+  const std::vector<Region> regions = dividedRegionsIn(listed);
   return {namesOf(regions),
           valueOf(RegionalMotion::make(numbersIn(weights, "Weights"), mattersOf(regions)))};
 }

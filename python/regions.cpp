@@ -1,6 +1,7 @@
 #include "regions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <numeric>
@@ -16,8 +17,26 @@ namespace sweepface::python {
 
 // ---- What others need of them ----
 
+namespace {
+
 std::vector<Region> regionsIn(const py::object& listed) {
   return as<std::vector<Region>>(listed, "Regions", "a list of regions");
+}
+
+}  // namespace
+
+std::vector<Region> dividedRegionsIn(const py::object& listed) {
+  std::vector<Region> regions = regionsIn(listed);
+  std::vector<double> sums;
+  for (const Region& region : regions) {
+    sums.resize(std::max(sums.size(), region.shares.size()));
+    for (std::size_t n = 0; n < region.shares.size(); ++n) sums[n] += region.shares[n];
+  }
+  if (!std::ranges::all_of(sums, [](double sum) { return std::abs(sum - 1) <= 1e-9; }))
+    throw Failure(
+        "The shares of these regions do not sum to 1 everywhere; take what Rig.divide "
+        "makes of them, or Face.regions.");
+  return regions;
 }
 
 std::vector<Region> dividedBy(const Rig& rig, const py::object& listed) {
@@ -157,7 +176,7 @@ std::vector<Region> parsedRegions(const Rig& rig, const std::string& text,
   const auto regions = valueOf(parseRegions(text, name));
   // A timeline without regions is one for the whole face; elsewhere they were misspelt.
   if (regions.empty() && !isTimeline(text))
-    throw Failure(name + " has no 'regions'; see docs/regions.md.");
+    throw Failure(name + " has no regions; see docs/regions.md.");
   auto divided = paintRegions(rig, regions);
   if (!divided) throw Failure(name + ": " + divided.error().message);
   return std::move(*divided);
@@ -171,6 +190,7 @@ struct SplitRig {
   std::shared_ptr<Rig> rig;
   std::size_t regions;
   RegionalTargets targets;
+  std::vector<Index> still;  // targets that are not split
 };
 
 SplitRig splitRig(const std::shared_ptr<Rig>& whole, const py::object& regions,
@@ -185,11 +205,27 @@ SplitRig splitRig(const std::shared_ptr<Rig>& whole, const py::object& regions,
       if (std::ranges::find(numbers, target) == numbers.end()) numbers.push_back(target);
     }
   }
+  std::vector<Index> still;
+  for (Index k = 0; k < static_cast<Index>(whole->targets.size()); ++k)
+    if (std::ranges::find(numbers, k) == numbers.end()) still.push_back(k);
   const std::vector<Region> divided = dividedBy(*whole, regions);
   const Released others;
   const auto rig = std::make_shared<Rig>(*whole);
   auto parts = RegionalTargets::addTo(*rig, divided, numbers);
-  return {whole, rig, divided.size(), std::move(parts)};
+  return {whole, rig, divided.size(), std::move(parts), std::move(still)};
+}
+
+/// Refuses weights that a target without parts cannot show.
+void checkWhole(const SplitRig& split, std::span<const double> weights) {
+  const std::size_t targets = split.whole->targets.size();
+  for (const Index k : split.still)
+    for (std::size_t r = 1; r < split.regions; ++r)
+      if (weights[r * targets + static_cast<std::size_t>(k)] !=
+          weights[static_cast<std::size_t>(k)])
+        throw Failure(
+            fmt::format("The weights of '{}' differ between regions, but it is not split; "
+                        "name it among the targets.",
+                        split.whole->targets[k].name));
 }
 
 py::array_t<double> spreadOver(const SplitRig& split, const py::object& given) {
@@ -199,9 +235,11 @@ py::array_t<double> spreadOver(const SplitRig& split, const py::object& given) {
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(out)};
   if (!told.isOne) shape.insert(shape.begin(), static_cast<py::ssize_t>(told.frames));
   py::array_t<double> spread(shape);
-  for (std::size_t f = 0; f < told.frames; ++f)
-    split.targets.spread(std::span(told.weights).subspan(f * in, in),
-                         {spread.mutable_data() + f * out, out});
+  for (std::size_t f = 0; f < told.frames; ++f) {
+    const auto weights = std::span(told.weights).subspan(f * in, in);
+    checkWhole(split, weights);
+    split.targets.spread(weights, {spread.mutable_data() + f * out, out});
+  }
   return spread;
 }
 
@@ -226,6 +264,16 @@ void addRegions(py::module_& m) {
                              [](const Region& region) { return region.matter.stiffness; })
       .def_property_readonly(
           "delay", [](const Region& region) { return region.matter.delay; }, "Seconds.")
+      .def(py::pickle(
+          [](const Region& region) {
+            const auto& [mass, stiffness, delay] = region.matter;
+            return py::make_tuple(region.name, arrayOf(region.shares), mass, stiffness, delay);
+          },
+          [](const py::tuple& told) {
+            return regionFrom(told[0].cast<std::string>(), told[1].cast<Doubles>(),
+                              told[2].cast<double>(), told[3].cast<double>(),
+                              told[4].cast<double>());
+          }))
       .def("__repr__", [](const Region& region) {
         return textOf(fmt::format(
             "<sweepface.Region '{}': mass {:g}, stiffness {:g}, delay {:g} s>", region.name,
@@ -253,7 +301,7 @@ void addRegionsOfRigs(py::module_& m) {
       .def("divide", &dividedBy, "regions"_a,
            "The regions with the rest of the face first, if anything is left of it; their shares "
            "then sum to 1 at every node. Where regions overlap, each gets less in proportion.")
-      .def("parse_regions", &parsedRegions, "text"_a, "name"_a = "The regions",
+      .def("parse_regions", &parsedRegions, "text"_a, "name"_a = "The text",
            "Those of the 'regions' in a JSON text, which messages call by the name, with the rest "
            "first.")
       .def(
@@ -274,7 +322,7 @@ void addRegionsOfRigs(py::module_& m) {
           "The target that each of its targets is a part of, or itself.")
       .def("spread", &spreadOver, "weights"_a,
            "Weights of regions [R, K] or [F, R, K] as weights of its targets, in a row for each "
-           "frame.");
+           "frame. Those of targets that are not split must be the same in all regions.");
 }
 
 }  // namespace sweepface::python

@@ -11,9 +11,10 @@
 
 namespace sweepface::python {
 
-/// Regions that Python lists, as they are; messages call them "Regions".
-std::vector<Region> regionsIn(const py::object& listed);
-/// The face divided into such regions, the rest first.
+/// Regions that Python lists, as Rig.divide returns them. Refuses those that leave part of the face
+/// to none: their numbers are not those of the face's regions.
+std::vector<Region> dividedRegionsIn(const py::object& listed);
+/// The face divided into regions that Python lists, the rest first.
 std::vector<Region> dividedBy(const Rig& rig, const py::object& listed);
 
 std::vector<std::string> namesOf(std::span<const Region> regions);

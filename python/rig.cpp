@@ -31,6 +31,13 @@ SharedRig loaded(const std::filesystem::path& path, std::size_t memory) {
   return decoded(valueOf(readFile(path)), path.string(), memory);
 }
 
+/// The same clip with its first frame at 0: the times of captures are those of the day.
+Clip fromItsBeginning(Clip clip) {
+  const double first = clip.times.empty() ? 0 : clip.times.front();
+  for (double& time : clip.times) time -= first;
+  return clip;
+}
+
 void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
              bool quantize, const py::object& weights, const Clip* clip, double keyTolerance,
              bool head, const py::object& pivot) {
@@ -40,7 +47,7 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, boo
   options.morphNormals = morphNormals, options.quantize = quantize;
   if (!weights.is_none()) options.weights = weightsFrom(rig, weights);
   Clip played;
-  if (clip) played = clipOfTargets(rig, *clip), options.clip = &played;
+  if (clip) played = fromItsBeginning(clipOfTargets(rig, *clip)), options.clip = &played;
   options.keyTolerance = keyTolerance;
   HeadTrack turns;
   if (head) turns = headTrackOf(rig, clip, pivot), options.head = &turns;

@@ -15,15 +15,15 @@ namespace {
 
 RegionalClips captureIn(const Clip& clip, const py::object& listed, double frequency,
                         double damping) {
-  const std::vector<Matter> matters = mattersOf(regionsIn(listed));
+  const std::vector<Matter> matters = mattersOf(dividedRegionsIn(listed));
   const Released others;
   auto clips = inRegions(clip, matters, {frequency, damping});
-  if (!clips) throw Failure("In regions, " + clips.error().message);
+  if (!clips) throw Failure("The clip: " + clips.error().message);
   return std::move(*clips);
 }
 
 RegionalClips timelineIn(const Timeline& timeline, const py::object& listed) {
-  const std::vector<Region> regions = regionsIn(listed);
+  const std::vector<Region> regions = dividedRegionsIn(listed);
   const Released others;
   auto clips = inRegions(timeline, namesOf(regions), mattersOf(regions));
   if (!clips) throw Failure("The timeline: " + clips.error().message);
@@ -44,7 +44,8 @@ py::array_t<double> regionalWeightsOver(const RegionalClips& clips, const Rig& r
                                         const py::object& times) {
   const ClipMatch match = matchWith(clips.whole, rig, clips.missed);
   const double first = clips.whole.times.empty() ? 0 : clips.whole.times.front();
-  const auto at = as<Doubles>(times, "Times", "an array of numbers");
+  const Doubles at = times.is_none() ? Doubles(arrayOf(clips.whole.times))
+                                     : as<Doubles>(times, "Times", "an array of numbers");
   const std::size_t regions = clips.ofRegions.size(), targets = rig.targets.size();
   auto rows = rowsAt(at, regions * targets, [&](double time, std::span<double> row) {
     for (std::size_t r = 0; r < regions; ++r)
@@ -64,7 +65,7 @@ void addTimeline(py::module_& m) {
                     "The clip itself, for head and eyes, which no region holds back.")
       .def_readonly("of_regions", &RegionalClips::ofRegions, "A clip for each region.")
       .def_property_readonly("seconds", &secondsOf, "Until the last region has arrived.")
-      .def("weights_of", &regionalWeightsOver, "rig"_a, "times"_a,
+      .def("weights_of", &regionalWeightsOver, "rig"_a, "times"_a = py::none(),
            "Weights of the rig's targets at times in every region, as Clip.weights_of has them: "
            "[T, R, K].")
       .def("__repr__", [](const RegionalClips& clips) {

@@ -172,8 +172,8 @@ class Faces(FaceTest):
     def test_end_long_work_when_they_are_interrupted(self):
         program = (
             "face = sweepface.Face(rig, 4)\n"
-            "weights = np.random.default_rng(1).random((250, 42))\n"
-            "normals = np.full((250, face.vertex_count, 3), 9, np.float32)\n"
+            "weights = np.random.default_rng(1).random((1000, 42))\n"
+            "normals = np.full((1000, face.vertex_count, 3), 9, np.float32)\n"
             "def work(): face.evaluate(weights, positions=False, normals=normals)\n"
             "def left(): return (normals[:, 0, 0] == 9).sum()\n"
         )

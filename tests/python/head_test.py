@@ -114,7 +114,10 @@ class Heads(FaceTest):
         with open(self.path("take.glb"), "rb") as file:
             data = file.read()
         document = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
-        paths = [channel["target"]["path"] for channel in document["animations"][0]["channels"]]
+        animation = document["animations"][0]
+        starts = {document["accessors"][sampler["input"]]["min"][0] for sampler in animation["samplers"]}
+        self.assertEqual(starts, {0}, "whenever the take began")
+        paths = [channel["target"]["path"] for channel in animation["channels"]]
         places = [node["translation"] for node in document["nodes"] if node.get("name") == "head"]
         return paths.count("rotation"), places
 

@@ -3,6 +3,7 @@
 import collections
 import json
 import os
+import pickle
 import subprocess
 import unittest
 
@@ -33,6 +34,11 @@ class RegionTest(FaceTest):
 
 
 class Painting(RegionTest):
+    def test_can_be_pickled(self):
+        copy = pickle.loads(pickle.dumps(self.regions[1]))
+        self.assertEqual(repr(copy), repr(self.regions[1]))
+        self.assertTrue(np.array_equal(copy.shares, self.regions[1].shares))
+
     def test_fades_with_the_distance(self):
         nodes = self.rig.pose().nodes()
         self.assertEqual((nodes.shape, self.shares.shape), ((self.rig.node_count, 3), (self.rig.node_count,)))
@@ -115,7 +121,7 @@ class Painting(RegionTest):
         for listed in (3, ["a"], [None], "regions", collections.UserDict(a=1)):
             with self.refuses("Regions must be a list of regions"):
                 self.rig.divide(listed)
-        with self.refuses("has no 'regions'"):
+        with self.refuses("The text has no regions"):
             self.rig.parse_regions("{}")
         with self.refuses("cheeks.json.*regions.0"):
             self.rig.read_regions(self.write("cheeks.json", {"regions": [{"name": "cheeks"}]}))
@@ -266,6 +272,18 @@ class Clips(RegionTest):
         self.assertAlmostEqual(stiff[0, 1, self.jaw], 0.4**2, delta=0.02)
         self.assertEqual(repr(clips)[:36], "<sweepface.RegionalClips: 2 regions,")
 
+    def test_have_their_own_frames_if_no_times_are_given(self):
+        clips = self.clip().in_regions(self.regions)
+        self.assertTrue(np.array_equal(clips.weights_of(self.rig), clips.weights_of(self.rig, self.clip().times)))
+
+    def test_take_regions_as_the_face_has_them(self):
+        cheeks = [sweepface.Region("cheeks", self.shares, mass=4)]  # without the rest
+        timeline = sweepface.parse_timeline(json.dumps({"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": 1}}]}))
+        for call in (self.clip().in_regions, timeline.in_regions, lambda r: sweepface.RegionalMotion([0], r)):
+            with self.refuses("take what Rig.divide makes of them"):
+                call(cheeks)
+            call(sweepface.Face(self.rig, regions=cheeks).regions)
+
     def test_agree_with_the_tool(self):
         times = np.linspace(0, 1, 61)
         columns = {"jawOpen": times**2, "eyeLookOutLeft": times, "leftEyeYaw": -0.3 * times, "rightEyePitch": 0.2 * times}
@@ -324,7 +342,7 @@ class Timelines(RegionTest):
             timeline.in_regions(self.regions)
         with self.refuses("nose"):
             sweepface.read_clip(self.write("line.json", self.timeline("nose")))
-        with self.refuses("The timeline.*JSON|The timeline"):
+        with self.refuses("^The timeline.*JSON"):
             sweepface.parse_timeline("{")
         with self.refuses("my line"):
             sweepface.parse_timeline("{}", "my line")
@@ -347,6 +365,13 @@ class Parts(RegionTest):
         self.assertEqual(len(self.rig.target_names), 42)
         all_of_them = sweepface.RegionalTargets(self.rig, self.regions)
         self.assertGreater(len(all_of_them.rig.target_names), 60)
+
+    def test_refuse_weights_that_they_cannot_show(self):
+        parts = sweepface.RegionalTargets(self.rig, self.regions, ["jawOpen"])
+        weights = self.weights(0.3, 0.8)
+        weights[1, 0] = 0.5
+        with self.refuses("The weights of 'eyeBlinkLeft' differ between regions"):
+            parts.spread(weights)
 
     def test_refuse_targets_that_there_are_not(self):
         with self.refuses("frown"):

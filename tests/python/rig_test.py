@@ -121,7 +121,7 @@ class Contents(FaceTest):
         program = "def work(): rig.render(width=4000, height=4000)\ndef left(): return 0\n"  # takes half a minute
         word, seconds, _ = interrupted(program, 0.1)
         self.assertEqual(word, "interrupted")
-        self.assertLess(float(seconds), 10)
+        self.assertLess(float(seconds), 6)
 
 
 class Poses(FaceTest):
