@@ -97,7 +97,7 @@ def end(process):
     """Ends a process of the tool if it still runs."""
     process.terminate()
     try:
-        process.wait(3)  # the tool takes up to two seconds to stop without leaving parts of files
+        process.wait(3)  # the tool takes up to two seconds to stop; Windows ends it at once
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
@@ -244,10 +244,16 @@ def new_mesh(name, lines):
     return mesh
 
 
+IS_WINDOWS = os.name == "nt"
+FORBIDDEN = r"""[/\\:*?"<>|\x00-\x1f]""" if IS_WINDOWS else "/"  # in the names of files
+DEVICE = r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)" if IS_WINDOWS else r"(?!)"
+
+
 def file_of(target):
     """The name that the tool gives the mesh file of a target."""
-    name = target.replace("/", "_")
-    return ("_" + name[1:] if name.startswith(".") else name) + ".obj"
+    name = re.sub(FORBIDDEN, "_", target)
+    name = "_" + name[1:] if name.startswith(".") else name
+    return ("_" if re.match(DEVICE, name) else "") + name + ".obj"
 
 
 def add_keys(shown, folder, targets):
@@ -334,8 +340,9 @@ def write_face(shown, neutral, folder):
     os.mkdir(folder)
     targets = {}
     for name, shape in shapes.items():
-        if name.startswith(".") or "/" in name or "\\" in name:
-            raise RuntimeError(f"The shape key '{name}' cannot be the name of a target; rename it.")
+        is_taken = IS_WINDOWS and name.lower() in map(str.lower, targets)
+        if is_taken or "\\" in name or file_of(name) != name + ".obj":
+            raise RuntimeError(f"The shape key '{name}' cannot be the name of a target here; rename it.")
         targets[name] = os.path.join(folder, name + ".obj")
         write_obj(targets[name], shape, faces, to_world)
     return targets

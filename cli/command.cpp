@@ -14,6 +14,7 @@
 
 #include "sweepface/codec.hpp"
 
+#include "file_names.hpp"
 #include "near_name.hpp"
 
 namespace sweepface::cli {
@@ -354,6 +355,8 @@ Result<void> checkOutput(const std::string& name, const std::vector<std::string>
   if (leadsToFile(output)) return cannot("it leads into a file; name that file");
   // A device is written to directly; any other file is replaced within its folder.
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
+  if (!device && !mayBeFileName(output.filename().string()))
+    return cannot("no file can be called so; choose another name");
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(name, kind); }))
     return cannot(fmt::format("its name must end in {}", fmt::join(kinds, " or ")));
   if (!device && fs::exists(output, ignored) && access(output.string().c_str(), W_OK) != 0)

@@ -7,6 +7,7 @@
 
 #include "budget_mesh.hpp"
 #include "command.hpp"
+#include "file_names.hpp"
 #include "following.hpp"
 #include "interrupts.hpp"
 #include "lod_mesh.hpp"
@@ -112,12 +113,6 @@ Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& w
   return {};
 }
 
-#ifdef _WIN32
-constexpr std::string_view kForbidden = R"(/\:*?"<>|)";
-#else
-constexpr std::string_view kForbidden = "/";
-#endif
-
 /// The file names of the first targets: their own names, altered where file systems would refuse
 /// the file or `convert` would skip it in a folder.
 Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
@@ -125,9 +120,11 @@ Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     const std::string& target = rig.targets[k].name;
     std::string name = target + ".obj";
-    std::ranges::replace_if(name, [](char c) { return kForbidden.contains(c); }, '_');
+    std::ranges::replace_if(name, isForbiddenInFileNames, '_');
     if (name.starts_with('.')) name[0] = '_';
-    if (const auto twin = std::ranges::find(names, name); twin != names.end())
+    if (isDeviceName(name)) name.insert(0, "_");
+    if (const auto twin = std::ranges::find(names, asCompared(name), asCompared);
+        twin != names.end())
       return fail(fmt::format("The targets '{}' and '{}' would both be in {}; write a .glb.",
                               rig.targets[twin - names.begin()].name, target, name));
     names.push_back(std::move(name));

@@ -31,10 +31,10 @@ void endAnyway(int) {
 
 std::atomic<Patience> patienceNow{};
 
-/// Windows has no alarms, but handles each signal in a thread of its own, which may wait.
+/// Windows has no alarms, but handles each signal in a thread of its own, which may wait, and after
+/// which it may end the program.
 void ask(int) {
   interrupted = true;
-  if (patienceNow == Patience::endless) return;
   std::this_thread::sleep_for(std::chrono::seconds(2));
   if (patienceNow == Patience::twoSeconds) endAnyway(0);
 }

@@ -60,7 +60,8 @@ struct ObjOutput {
 /// A Wavefront OBJ text. Its numbers read back as exactly the same doubles.
 std::string formatObj(const ObjOutput& output);
 
-/// The path that a text in UTF-8 names. On Windows a path made of `char` is in another encoding.
+/// The path that a text names, which must be in UTF-8. On Windows a path made of `char` is in
+/// another encoding.
 std::filesystem::path utf8Path(std::string_view text);
 
 /// All bytes of a file.

@@ -111,8 +111,9 @@ std::unexpected<Error> refuse(std::string_view uri, std::string_view why) {
 /// The path of the file that a URI names, with links resolved.
 Result<fs::path> pathOf(std::string_view uri, const fs::path& folder) {
   const auto decoded = percentDecoded(uri);
-  const bool plain = decoded && isPrintable(*decoded) && decoded->find('\\') == std::string::npos;
-  if (hasScheme(uri) || !plain || !leadsDown(*decoded))
+  const bool plain = decoded && isPrintable(*decoded) && codec::isUtf8(*decoded) &&
+                     decoded->find('\\') == std::string::npos;
+  if (hasScheme(uri) || !plain || !leadsDown(utf8Path(*decoded)))
     return refuse(uri,
                   "is not named by a path within the folder of the glTF; put it there and name it "
                   "so");

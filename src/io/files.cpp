@@ -15,10 +15,6 @@
 
 #include "io/text.hpp"
 
-#ifndef O_BINARY
-#define O_BINARY 0  // only Windows translates line ends
-#endif
-
 namespace sweepface {
 namespace {
 
@@ -28,6 +24,24 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
+
+// Windows has these functions for paths as it stores them, and translates line ends unless told.
+#ifdef _WIN32
+int openedNumber(const fs::path& path, int flags) {
+  return ::_wopen(path.c_str(), flags | O_BINARY, 0666);
+}
+bool allows(const fs::path& path, int what) { return ::_waccess(path.c_str(), what) == 0; }
+constexpr const char* kInUse = "; close it in other programs, or choose another place";
+#else
+int openedNumber(const fs::path& path, int flags) { return ::open(path.c_str(), flags, 0666); }
+bool allows(const fs::path& path, int what) { return ::access(path.c_str(), what) == 0; }
+constexpr const char* kInUse = "; choose another place, or change its permissions";
+#endif
+
+File opened(const fs::path& path, int flags, const char* mode) {
+  const int number = openedNumber(path, flags);
+  return File(number < 0 ? nullptr : ::fdopen(number, mode));
+}
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
@@ -40,9 +54,8 @@ bool isFull(int code) {
 
 std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
   const char* const advice = isFull(code) ? "; make room there, or choose another place"
-                             : code == EACCES || code == EPERM || code == EROFS
-                                 ? "; choose another place, or change its permissions"
-                                 : "";
+                             : code == EACCES || code == EPERM || code == EROFS ? kInUse
+                                                                                : "";
   return fail(fmt::format("Cannot write {}: {}{}.", path.string(), reason(code), advice));
 }
 
@@ -70,17 +83,11 @@ struct Temporary {
   int code = EEXIST;  ///< why there is no file
 };
 
-/// Creates a file that must not exist yet; fopen's "x" is not known to every C library.
-File createNew(const fs::path& path) {
-  const int file = ::open(path.string().c_str(), O_CREAT | O_EXCL | O_WRONLY | O_BINARY, 0666);
-  return File(file < 0 ? nullptr : ::fdopen(file, "wb"));
-}
-
 /// Creates a new file in the folder.
 Temporary createTemporary(const fs::path& folder) {
   for (int number = 0; number < kMostTemporaries; ++number) {
     fs::path path = temporaryName(folder, number);
-    File file = createNew(path);
+    File file = opened(path, O_CREAT | O_EXCL | O_WRONLY, "wb");
     const int code = file ? 0 : errno;
     if (code != EEXIST) return {std::move(path), std::move(file), code};
   }
@@ -103,7 +110,7 @@ std::unexpected<Error> cannotCreate(const fs::path& path, const fs::path& folder
 }
 
 Result<void> writeDirectly(const fs::path& path, std::string_view bytes) {
-  File file(std::fopen(path.string().c_str(), "wb"));
+  File file = opened(path, O_CREAT | O_TRUNC | O_WRONLY, "wb");
   if (!file) return cannotWrite(path, errno);
   if (const int code = writeAll(std::move(file), bytes)) return cannotWrite(path, code);
   return {};
@@ -156,9 +163,7 @@ std::optional<int> replaceByNameless(const fs::path&, const fs::path&, std::stri
 Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   const fs::path folder = folderOf(path);
   // A folder's permissions alone would let a write-protected file be replaced.
-  const std::string name = path.string();
-  if (::access(name.c_str(), F_OK) == 0 && ::access(name.c_str(), W_OK) != 0)
-    return cannotWrite(path, errno);
+  if (allows(path, F_OK) && !allows(path, W_OK)) return cannotWrite(path, errno);
   if (const auto code = replaceByNameless(path, folder, bytes)) {
     if (*code == 0) return {};
     return cannotWrite(path, *code);
@@ -205,7 +210,7 @@ Result<std::string> readFile(const fs::path& path) {
   if (status.type() == fs::file_type::not_found)
     return cannotRead("there is no such file; check the name");
   if (fs::is_directory(status)) return cannotRead("it is a folder; name a file in it");
-  const File file(std::fopen(path.string().c_str(), "rb"));
+  const File file = opened(path, O_RDONLY, "rb");
   if (!file) return cannotRead(reason(errno) + (errno == EACCES ? "; change its permissions" : ""));
 
   std::string bytes;

@@ -105,6 +105,10 @@ Peers makePeers(const MeshRig& source, const std::string& gltfpack,
   const auto glb = formatGlb(source);
   const auto measured = glb ? measureFile(peers.glb, *glb, source, reachOf(source, 16))
                             : std::unexpected(glb.error());
+  if (!runsPrograms) {
+    peers.left = "GLBs packed by gltfpack are left out: on Windows it is not run.";
+    return peers;
+  }
   const ScratchFolder folder;
   if (folder.path().empty()) {
     peers.left =

@@ -1,10 +1,11 @@
 #include "report/program.hpp"
 
+#ifdef _WIN32
 #include <fmt/format.h>
 #include <random>
-
-#ifndef _WIN32
+#else
 #include <cerrno>
+#include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -15,8 +16,14 @@ namespace sweepface {
 
 #ifdef _WIN32
 
-/// What npm and others install there are scripts for a shell.
 Ran run(const std::vector<std::string>&) { return Ran::missing; }
+
+ScratchFolder::ScratchFolder() {
+  std::error_code error;
+  const auto path = std::filesystem::temp_directory_path(error) /
+                    fmt::format("sweepface-{:08x}", std::random_device()());
+  if (!error && std::filesystem::create_directory(path, error)) path_ = path;
+}
 
 #else
 
@@ -39,17 +46,14 @@ Ran run(const std::vector<std::string>& words) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? Ran::well : Ran::badly;
 }
 
-#endif
-
 ScratchFolder::ScratchFolder() {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path path =
-      fs::temp_directory_path(error) / fmt::format("sweepface-{:08x}", std::random_device()());
-  if (error || !fs::create_directory(path, error)) return;
-  path_ = path;
-  fs::permissions(path, fs::perms::owner_all, error);
+  std::error_code none;
+  const auto parent = std::filesystem::temp_directory_path(none);
+  std::string path = (parent / "sweepface-XXXXXX").string();
+  if (!none && mkdtemp(path.data())) path_ = path;
 }
+
+#endif
 
 ScratchFolder::~ScratchFolder() {
   std::error_code ignored;

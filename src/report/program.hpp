@@ -8,6 +8,13 @@ namespace sweepface {
 
 enum class Ran { well, badly, missing };
 
+/// On Windows every program is missing.
+#ifdef _WIN32
+inline constexpr bool runsPrograms = false;
+#else
+inline constexpr bool runsPrograms = true;
+#endif
+
 /// Runs a program with its arguments, without a shell, and hides its output. It is searched for on
 /// the PATH unless its name has a slash.
 Ran run(const std::vector<std::string>& words);

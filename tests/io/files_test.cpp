@@ -41,6 +41,16 @@ TEST(Files, MayHaveTheLongestOfNames) {
   EXPECT_TRUE(writeFile(folder / std::string(255, 'n'), "x").has_value());
 }
 
+TEST(Files, MayBeCalledAnythingInUtf8) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "" / utf8Path("Köpfe 顔.txt");
+  ASSERT_TRUE(writeFile(path, "old"));
+  ASSERT_TRUE(writeFile(path, "new"));
+  EXPECT_EQ(readFile(path).value(), "new");
+  EXPECT_TRUE(
+      failsWith(readFile(folder / "" / utf8Path("größer.txt")), {"größer.txt", "no such file"}));
+}
+
 TEST(Files, ThatCannotBeReadSayWhy) {
   const TemporaryFolder folder;
   EXPECT_TRUE(failsWith(readFile(folder / "none.obj"), {"none.obj", "no such file"}));
