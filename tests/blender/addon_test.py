@@ -626,7 +626,7 @@ class WhileTheToolRuns(InBlender):
 
     def test_the_tool_may_vanish(self):
         self.face()
-        self.tool(f'rm "$0"; exec {TOOL} "$@"')
+        self.tool(f'rm "$0"; exec "{TOOL}" "$@"')
         job = watched(addon.ImportSweep, filepath=self.path("face.sweep"), lod=0)
         self.assertEqual(job.wait(), {"CANCELLED"})
         self.assertRegex(job.reports[-1][1], "^Cannot run .*tool .No such file or directory.; say in")
