@@ -114,7 +114,7 @@ WAITING = []  # the operators that wait for the tool while Blender goes on
 def tell_waiting():
     """Shows in the status bar how far the tool is, and for how long operators have been waiting."""
     now = time.monotonic()
-    texts = [f"{each.bl_label}: {each.progress or 'starting'}, {now - each.began:.0f} s" for each in WAITING]
+    texts = [f"{each.bl_label}: {each.progress or 'running'}, {now - each.began:.0f} s" for each in WAITING]
     for workspace in bpy.data.workspaces:  # the user may switch to another
         workspace.status_text_set(", ".join(texts) + " (Esc cancels)" if texts else None)
 
