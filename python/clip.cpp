@@ -118,11 +118,8 @@ namespace {
 
 py::array_t<double> weightsOver(const Clip& clip, const Rig& rig, const py::object& times) {
   const ClipMatch match = matchWith(clip, rig);
-  const double first = clip.times.empty() ? 0 : clip.times.front();
-  const Doubles at = times.is_none() ? Doubles(arrayOf(clip.times))
-                                     : as<Doubles>(times, "Times", "an array of numbers");
-  return rowsAt(at, rig.targets.size(),
-                [&](double time, std::span<double> row) { match.spread(clip, time - first, row); });
+  return rowsOver(clip, times, rig.targets.size(),
+                  [&](double seconds, std::span<double> row) { match.spread(clip, seconds, row); });
 }
 
 py::dict matchOf(const Clip& clip, const Rig& rig) {

@@ -9,6 +9,7 @@
 #include "sweepface/eval.hpp"
 
 #include "bindings.hpp"
+#include "clip.hpp"
 
 namespace sweepface::python {
 namespace {
@@ -65,13 +66,10 @@ py::array_t<double> quaternionsOf(const Doubles& angles) {
 
 py::dict anglesOf(const Clip& clip, const py::object& times) {
   const ClipAngles angles(clip);
-  const double first = clip.times.empty() ? 0 : clip.times.front();
-  const Doubles at = times.is_none() ? Doubles(arrayOf(clip.times))
-                                     : as<Doubles>(times, "Times", "an array of numbers");
   py::dict table;
   for (const Part& part : kParts)
-    table[part.name] = rowsAt(at, 3, [&](double time, std::span<double> row) {
-      const HeadPose stands = angles.at(clip, time - first);
+    table[part.name] = rowsOver(clip, times, 3, [&](double seconds, std::span<double> row) {
+      const HeadPose stands = angles.at(clip, seconds);
       const Angles& a = stands.*part.angles;
       row[0] = a.yaw, row[1] = a.pitch, row[2] = a.roll;
     });

@@ -1,6 +1,5 @@
 #include "sweepface/timeline.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 #include "sweepface/io.hpp"
@@ -34,23 +33,15 @@ Timeline parsedTimeline(const std::string& text, const std::string& name) {
   return released([&] { return valueOf(parseTimeline(text, name)); });
 }
 
-double secondsOf(const RegionalClips& clips) {
-  double longest = 0;
-  for (const Clip& clip : clips.ofRegions) longest = std::max(longest, clip.seconds());
-  return longest;
-}
-
 py::array_t<double> regionalWeightsOver(const RegionalClips& clips, const Rig& rig,
                                         const py::object& times) {
   const ClipMatch match = matchWith(clips.whole, rig, clips.missed);
-  const double first = clips.whole.times.empty() ? 0 : clips.whole.times.front();
-  const Doubles at = times.is_none() ? Doubles(arrayOf(clips.whole.times))
-                                     : as<Doubles>(times, "Times", "an array of numbers");
   const std::size_t regions = clips.ofRegions.size(), targets = rig.targets.size();
-  auto rows = rowsAt(at, regions * targets, [&](double time, std::span<double> row) {
-    for (std::size_t r = 0; r < regions; ++r)
-      match.spread(clips.ofRegions[r], time - first, row.subspan(r * targets, targets));
-  });
+  auto rows =
+      rowsOver(clips.whole, times, regions * targets, [&](double seconds, std::span<double> row) {
+        for (std::size_t r = 0; r < regions; ++r)
+          match.spread(clips.ofRegions[r], seconds, row.subspan(r * targets, targets));
+      });
   return rows.reshape(
       {rows.shape(0), static_cast<py::ssize_t>(regions), static_cast<py::ssize_t>(targets)});
 }
@@ -64,13 +55,14 @@ void addTimeline(py::module_& m) {
       .def_readonly("whole", &RegionalClips::whole,
                     "The clip itself, for head and eyes, which no region holds back.")
       .def_readonly("of_regions", &RegionalClips::ofRegions, "A clip for each region.")
-      .def_property_readonly("seconds", &secondsOf, "Until the last region has arrived.")
+      .def_property_readonly("seconds", &RegionalClips::seconds,
+                             "Until the last region has arrived.")
       .def("weights_of", &regionalWeightsOver, "rig"_a, "times"_a = py::none(),
            "Weights of the rig's targets at times in every region, as Clip.weights_of has them: "
            "[T, R, K].")
       .def("__repr__", [](const RegionalClips& clips) {
         return fmt::format("<sweepface.RegionalClips: {} regions, {:.2f} s>",
-                           clips.ofRegions.size(), secondsOf(clips));
+                           clips.ofRegions.size(), clips.seconds());
       });
   py::class_<Timeline>(m, "Timeline", "Events that send weights to goals, in one region or in all.")
       .def_readonly("seconds", &Timeline::seconds, "How long it lasts, once.")

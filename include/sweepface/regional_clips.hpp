@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,13 @@ struct RegionalClips {
   Clip whole;                   ///< for head and eyes, which no region's matter holds back
   std::vector<Clip> ofRegions;  ///< [R]
   double missed = 0;            ///< as in Baked, the most of any region
+
+  /// Until the last region has arrived.
+  double seconds() const {
+    double longest = 0;
+    for (const Clip& clip : ofRegions) longest = std::max(longest, clip.seconds());
+    return longest;
+  }
 };
 
 /// A capture as R ≥ 1 regions of these matters play it, hanging on it by `hold`. Refuses matters

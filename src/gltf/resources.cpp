@@ -7,6 +7,7 @@
 
 #include "sweepface/io.hpp"
 
+#include "codec/utf8.hpp"
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
@@ -100,10 +101,6 @@ bool leadsDown(const fs::path& path) {
   return std::ranges::none_of(path, [](const fs::path& part) { return part == ".."; });
 }
 
-bool isPrintable(std::string_view text) {
-  return std::ranges::none_of(text, [](unsigned char c) { return c < ' ' || c == 127; });
-}
-
 std::unexpected<Error> refuse(std::string_view uri, std::string_view why) {
   return fail(fmt::format("the file {} {}.", io::inQuotes(uri), why));
 }
@@ -111,8 +108,8 @@ std::unexpected<Error> refuse(std::string_view uri, std::string_view why) {
 /// The path of the file that a URI names, with links resolved.
 Result<fs::path> pathOf(std::string_view uri, const fs::path& folder) {
   const auto decoded = percentDecoded(uri);
-  const bool plain = decoded && isPrintable(*decoded) && codec::isUtf8(*decoded) &&
-                     decoded->find('\\') == std::string::npos;
+  const bool plain =
+      decoded && codec::isUtf8(*decoded) && decoded->find_first_of("\\\x7f") == std::string::npos;
   if (hasScheme(uri) || !plain || !leadsDown(utf8Path(*decoded)))
     return refuse(uri,
                   "is not named by a path within the folder of the glTF; put it there and name it "

@@ -165,10 +165,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
 void sweepface_clip_free(sweepface_clip* clip) { delete clip; }
 
 double sweepface_clip_seconds(const sweepface_clip* clip) {
-  if (!clip) return 0;
-  double longest = 0;
-  for (const Clip& each : clip->clips.ofRegions) longest = std::max(longest, each.seconds());
-  return longest;
+  return clip ? clip->clips.seconds() : 0;
 }
 
 const char* sweepface_clip_unmatched(const sweepface_clip* clip, uint32_t index) {
