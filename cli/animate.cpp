@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <optional>
 
-#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
@@ -13,6 +12,7 @@
 #include "mesh_folder.hpp"
 #include "output.hpp"
 #include "regions.hpp"
+#include "rig_file.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -28,7 +28,7 @@ struct AnimateArguments {
   double framesPerSecond = 0, keyTolerance = 0;  // 0: not given
   int frames = 0, lod = 0;
   bool quiet = false;
-  GlbArguments glb;
+  RigFileArguments rigFile;
 
   bool namesFrames() const { return frames > 0 || framesPerSecond > 0; }
 };
@@ -37,15 +37,15 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
   addFace(app, a.face);
   addOutput(app, a.output,
             "A folder for frame_0000.obj, frame_0001.obj ..., made if it is not there; or a .glb "
-            "file for the face with an animation of its targets; or a .csv of the weights, as Live "
-            "Link Face records them");
+            "or .usda file for the face with an animation of its targets; or a .csv of the "
+            "weights, as Live Link Face records them");
   addPerformance(app, a.what);
   addRegions(app, a.regions);
   addFollowing(app, a.following);
   app.add_option(
          "--frames", a.frames,
          "How many meshes or sampled keys, the first and the last included; if neither this "
-         "nor --fps is given 31, of a clip 30 a second, in a .csv 60 a second")
+         "nor --fps is given 31, of a clip and in a .usda 30 a second, in a .csv 60 a second")
       ->transform(wholeNumber(2, 100'000))
       ->type_name("N");
   app.add_option("--fps", a.framesPerSecond, "Meshes or sampled keys a second, instead of --frames")
@@ -65,7 +65,7 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
       ->type_name("W");
   addHead(app, a.head);
   addLod(app, a.lod, "Write finer meshes: every edge of the source cut into N, 1 to 64");
-  addGlb(app, a.glb);
+  addRigFile(app, a.rigFile);
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n"
@@ -86,7 +86,8 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
                     performance.seconds, rate, kMostFrames));
   const int last = rate > 0 ? static_cast<int>(std::floor(performance.seconds * rate + 1e-6))
                             : (a.frames > 0 ? a.frames : 31) - 1;
-  const bool isCsv = isOfKind(a.output, ".csv"), hasKeys = isCsv || isOfKind(a.output, ".glb");
+  const bool isCsv = isOfKind(a.output, ".csv");
+  const bool hasKeys = isCsv || isOfKind(a.output, ".glb") || isUsd(a.output);
   if (hasKeys && last > 0 && performance.seconds == 0)
     return fail(
         fmt::format("{} has one frame, which is one key; leave --frames out.", performance.called));
@@ -150,7 +151,7 @@ std::string keysOf(const AnimateArguments& a, const Performance& performance) {
 
 Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
-  GlbOptions options = a.glb.options(a.lod);
+  GlbOptions options = a.rigFile.glb(a.lod);
   options.animationName = performance.name;
   const std::string keys = keysOf(a, performance);
   Clip clip;
@@ -194,6 +195,34 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   return {};
 }
 
+// ---- USD ----
+
+/// How many frames a second a .usda has, which are its time codes.
+double frameRate(const AnimateArguments& a, const Performance& performance) {
+  if (a.frames > 0 && performance.seconds > 0) return (a.frames - 1) / performance.seconds;
+  return a.framesPerSecond > 0 ? a.framesPerSecond : 30;
+}
+
+Result<void> animateUsd(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
+  if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
+  UsdOptions options = a.rigFile.usd(a.lod);
+  options.timeCodesPerSecond = frameRate(a, performance);
+  AnimateArguments asked = a;
+  if (!a.namesFrames()) asked.framesPerSecond = options.timeCodesPerSecond;
+  const Result<std::vector<double>> times = sampleTimes(asked, performance);
+  if (!times) return std::unexpected(times.error());
+  const Clip clip = sample(performance, rig, *times);
+  options.clip = &clip;
+  const auto head = headTrack(a.head, rig, performance, *times);
+  if (!head) return std::unexpected(head.error());
+  if (*head) options.head = &**head;
+  const Result<std::string> text = formatUsd(rig, options);
+  if (!text) return std::unexpected(text.error());
+  if (auto written = writeFile(utf8Path(a.output), *text); !written) return written;
+  if (!a.quiet) printFrames(a, clip.times.size(), performance);
+  return {};
+}
+
 // ---- A recording ----
 
 Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
@@ -219,10 +248,10 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
 Result<void> checkArguments(const AnimateArguments& a, bool glb) {
   if (!a.what.to && a.what.clip.empty())
     return fail("Say where to go with --to, or what to play with --clip.");
-  if (!glb && (a.glb.any() || !a.keys.empty() || a.keyTolerance > 0))
+  if (!glb && (!a.keys.empty() || a.keyTolerance > 0))
     return fail(
-        "--keys, --key-tolerance, --morph-normals and --quantize are for .glb files; name the "
-        "output so or leave them out.");
+        "--keys and --key-tolerance are for .glb files; name the output so or leave them out.");
+  if (auto ok = checkRigFile(a.rigFile, a.output); !ok) return ok;
   if (!a.keys.empty() && a.keys != "exact" && a.keys != "few" && a.keys != "sampled")
     return fail(fmt::format("--keys is exact, few or sampled, not '{}'.", a.keys));
   const bool turns = a.head.on();
@@ -255,10 +284,11 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
 
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
-  if (!glb && !csv && !meansFolder(utf8Path(a.output)))
+  const bool isFile = glb || csv || isUsd(a.output);
+  if (!isFile && !meansFolder(utf8Path(a.output)))
     return fail(fmt::format(
-        "Cannot write {}: its name must end in .glb or .csv, or be a folder's, without an ending "
-        "or with a / behind it.",
+        "Cannot write {}: its name must end in .glb, .usda or .csv, or be a folder's, without an "
+        "ending or with a / behind it.",
         a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
@@ -270,14 +300,15 @@ Result<int> runAnimate(const AnimateArguments& a) {
   if (csv && performance->isDivided)  // by a timeline's own regions
     return fail(fmt::format("{} has regions, which a .csv cannot tell apart; leave them out there.",
                             a.what.clip));
-  if (glb || csv)
+  if (isFile)
     if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.what.clipNames, a.regions.file},
-                              {".glb", ".csv"}, !a.quiet);
+                              {".glb", ".usda", ".usd", ".csv"}, !a.quiet);
         !ok)
       return std::unexpected(ok.error());
-  const Result<void> written = (glb   ? animateGlb
-                                : csv ? animateCsv
-                                      : animateMeshes)(a, *rig, *performance);
+  const Result<void> written = (glb      ? animateGlb
+                                : csv    ? animateCsv
+                                : isFile ? animateUsd
+                                         : animateMeshes)(a, *rig, *performance);
   if (!written) return endWith(written.error());
   for (const std::string& note : performance->notes) printWarning(note);
   if (performance->turnsHead && !a.head.on() && !csv)
@@ -293,7 +324,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
 Command addAnimate(CLI::App& tool) {
   return makeCommand(tool, "animate",
                      "Move between expressions, or play a clip: every frame as a mesh, an "
-                     "animation (.glb) or a recording (.csv)",
+                     "animation (.glb, .usda) or a recording (.csv)",
                      runAnimate);
 }
 

@@ -141,13 +141,6 @@ Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts) {
       "of the two.");
 }
 
-void addGlb(CLI::App& app, GlbArguments& glb) {
-  app.add_flag("--morph-normals", glb.morphNormals,
-               "For .glb: normals of the morph targets too; larger, and better shaded");
-  app.add_flag("--quantize", glb.quantize,
-               "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
-}
-
 bool canBeListed(const std::string& name) {
   return !name.contains(',') && !name.starts_with(' ') && !name.ends_with(' ');
 }

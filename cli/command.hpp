@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
 #include "sweepface/result.hpp"
@@ -71,16 +70,6 @@ void addStrip(CLI::App& app, std::string& strip);
 void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description);
 /// Fails if --uv-bits is given for texture coordinates that are stripped.
 Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts);
-
-/// Options for .glb files only.
-struct GlbArguments {
-  bool morphNormals = false, quantize = false;
-  bool any() const { return morphNormals || quantize; }
-  GlbOptions options(Index lod) const {
-    return {.lod = lod, .morphNormals = morphNormals, .quantize = quantize};
-  }
-};
-void addGlb(CLI::App& app, GlbArguments& glb);
 
 /// Whether a target of this name can appear in a list of weights, NAME=W,...; and the message if it
 /// cannot.

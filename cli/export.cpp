@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "sweepface/evaluator.hpp"
-#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
 #include "budget_mesh.hpp"
@@ -13,6 +12,7 @@
 #include "lod_mesh.hpp"
 #include "mesh_folder.hpp"
 #include "output.hpp"
+#include "rig_file.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -23,14 +23,14 @@ struct ExportArguments {
   double edgeLength = 0, error = 0, vertices = 0;  // 0: not given
   bool sourceOrder = false, quiet = false;
   FollowingArguments following;
-  GlbArguments glb;
+  RigFileArguments rigFile;
 };
 
 void addOptions(CLI::App& app, ExportArguments& a) {
   addFace(app, a.face);
   addOutput(app, a.output,
-            "The file to write: .obj for one expression, .glb for the face with all its targets; "
-            "or a folder, without an ending, for all of them as .obj files");
+            "The file to write: .obj for one expression, .glb or .usda for the face with all its "
+            "targets; or a folder, without an ending, for all of them as .obj files");
   addWeights(app, a.weights);
   CLI::Option* lod =
       addLod(app, a.lod, "Write a finer mesh: every edge of the source cut into N, 1 to 64");
@@ -57,19 +57,21 @@ void addOptions(CLI::App& app, ExportArguments& a) {
       ->excludes(error);
   error->excludes(vertices);
   addFollowing(app, a.following);
-  addGlb(app, a.glb);
+  addRigFile(app, a.rigFile);
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n  sweepface export face.sweep -o smile.obj --weights smile=0.8,jawOpen=0.2\n"
       "  sweepface export face.sweep -o smooth.obj --lod 4\n"
       "  sweepface export face.sweep -o far.obj --vertices 5000\n"
       "  sweepface export face.sweep -o face.glb --quantize\n"
+      "  sweepface export face.sweep -o face.usda\n"
       "  sweepface export face.sweep -o meshes/");
 }
 
+bool isOfRig(const ExportArguments& a) { return isOfKind(a.output, ".glb") || isUsd(a.output); }
+
 bool isOfFolder(const ExportArguments& a) {
-  return !isOfKind(a.output, ".obj") && !isOfKind(a.output, ".glb") &&
-         meansFolder(utf8Path(a.output));
+  return !isOfKind(a.output, ".obj") && !isOfRig(a) && meansFolder(utf8Path(a.output));
 }
 
 Budget budgetOf(const ExportArguments& a) {
@@ -101,11 +103,21 @@ Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& w
   return {};
 }
 
-Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& weights) {
-  GlbOptions options = a.glb.options(a.lod);
-  if (!a.weights.empty()) options.weights = weights;
+Result<std::string> formatRig(const ExportArguments& a, const Rig& rig, const Weights& weights) {
+  const bool shows = !a.weights.empty();
+  if (isUsd(a.output)) {
+    UsdOptions options = a.rigFile.usd(a.lod);
+    if (shows) options.weights = weights;
+    return formatUsd(rig, options);
+  }
+  GlbOptions options = a.rigFile.glb(a.lod);
+  if (shows) options.weights = weights;
+  return formatGlb(rig, options);
+}
+
+Result<void> writeRig(const ExportArguments& a, const Rig& rig, const Weights& weights) {
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
-  const Result<std::string> bytes = formatGlb(rig, options);
+  const Result<std::string> bytes = formatRig(a, rig, weights);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(utf8Path(a.output), *bytes); !written) return written;
   if (!a.quiet)
@@ -165,25 +177,24 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
 
 /// Refuses options that this kind of output does not have.
 Result<void> checkKind(const ExportArguments& a) {
-  const bool glb = isOfKind(a.output, ".glb"), isFolder = isOfFolder(a);
-  if (a.glb.any() && !glb)
-    return fail("--morph-normals and --quantize are for .glb files; name the output so.");
-  if ((glb || isFolder) && budgetOf(a).value > 0)
+  const bool isRig = isOfRig(a), isFolder = isOfFolder(a);
+  if (auto ok = checkRigFile(a.rigFile, a.output); !ok) return ok;
+  if ((isRig || isFolder) && budgetOf(a).value > 0)
     return fail(
         "A budget of vertices, error or edge length is for .obj files; name the output so.");
   if (isFolder && !a.weights.empty())
     return fail("A folder gets every target by itself; leave --weights out, or name an .obj file.");
-  if ((glb || isFolder) && a.weights.empty() &&
+  if ((isRig || isFolder) && a.weights.empty() &&
       (a.following.combine || !a.following.limits.empty()))
-    return fail(
-        fmt::format("A {} holds all targets, and --combine and --limits change the "
-                    "expression of --weights alone; {}leave them out.",
-                    glb ? ".glb" : "folder", glb ? "name one, or " : ""));
+    return fail(fmt::format(
+        "A {} holds all targets, and --combine and --limits change the "
+        "expression of --weights alone; {}leave them out.",
+        isRig ? extensionOf(utf8Path(a.output)) : "folder", isRig ? "name one, or " : ""));
   return {};
 }
 
 Result<int> runExport(const ExportArguments& a) {
-  const bool glb = isOfKind(a.output, ".glb"), isFolder = isOfFolder(a);
+  const bool isFolder = isOfFolder(a);
   if (auto ok = checkKind(a); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
@@ -194,14 +205,14 @@ Result<int> runExport(const ExportArguments& a) {
   Result<Weights> weights = weightsGiven("--weights", a.weights, *rig);
   if (!weights) return std::unexpected(weights.error());
   if (!isFolder)
-    if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}, !a.quiet); !ok)
+    if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb", ".usda", ".usd"}, !a.quiet); !ok)
       return std::unexpected(ok.error());
   const Result<Following> following = follow(a.following, *rig, {*weights});
   if (!following) return std::unexpected(following.error());
   weights->resize(rig->targets.size());
   following->apply(*weights);
-  const Result<void> written =
-      isFolder ? writeFolder(a, *rig, *following) : (glb ? writeGlb : writeObj)(a, *rig, *weights);
+  const Result<void> written = isFolder ? writeFolder(a, *rig, *following)
+                                        : (isOfRig(a) ? writeRig : writeObj)(a, *rig, *weights);
   if (!written) return endWith(written.error());
   return 0;
 }
@@ -209,9 +220,10 @@ Result<int> runExport(const ExportArguments& a) {
 }  // namespace
 
 Command addExport(CLI::App& tool) {
-  return makeCommand(tool, "export",
-                     "Write an expression as a mesh (.obj), or the face with its targets (.glb)",
-                     runExport);
+  return makeCommand(
+      tool, "export",
+      "Write an expression as a mesh (.obj), or the face with its targets (.glb, .usda)",
+      runExport);
 }
 
 }  // namespace sweepface::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sweepface/gltf.hpp"
+#include "sweepface/head.hpp"
 
 #include "command.hpp"
 #include "performance.hpp"

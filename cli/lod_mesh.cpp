@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "sweepface/io.hpp"
+#include "sweepface/lod_polygons.hpp"
 
 #include "command.hpp"
-#include "lod_polygons.hpp"
 
 namespace sweepface::cli {
 

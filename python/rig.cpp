@@ -8,6 +8,7 @@
 #include "sweepface/io.hpp"
 #include "sweepface/limits.hpp"
 #include "sweepface/strip.hpp"
+#include "sweepface/usd.hpp"
 
 #include "bindings.hpp"
 #include "clip.hpp"
@@ -38,6 +39,22 @@ Clip fromItsBeginning(Clip clip) {
   return clip;
 }
 
+/// What is animated in a file of the rig: a clip of its targets, and its head.
+struct Played {
+  Clip clip;
+  HeadTrack head;
+
+  /// Sets what GlbOptions and UsdOptions have alike.
+  template <typename Options>
+  void setIn(Options& options, const Rig& rig, const Clip* given, bool turns,
+             const py::object& pivot) {
+    if (given) clip = fromItsBeginning(clipOfTargets(rig, *given)), options.clip = &clip;
+    if (turns) head = headTrackOf(rig, given, pivot), options.head = &head;
+    if (!turns && !pivot.is_none())
+      throw Failure("The model turns about the pivot with head only; leave the pivot out.");
+  }
+};
+
 void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
              bool quantize, const py::object& weights, const Clip* clip, double keyTolerance,
              bool head, const py::object& pivot) {
@@ -46,14 +63,25 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, boo
   options.lod = level;
   options.morphNormals = morphNormals, options.quantize = quantize;
   if (!weights.is_none()) options.weights = weightsFrom(rig, weights);
-  Clip played;
-  if (clip) played = fromItsBeginning(clipOfTargets(rig, *clip)), options.clip = &played;
   options.keyTolerance = keyTolerance;
-  HeadTrack turns;
-  if (head) turns = headTrackOf(rig, clip, pivot), options.head = &turns;
-  if (!head && !pivot.is_none())
-    throw Failure("The model turns about the pivot with head only; leave the pivot out.");
+  Played played;
+  played.setIn(options, rig, clip, head, pivot);
   released([&] { return valueOf(writeFile(path, valueOf(formatGlb(rig, options)))); });
+}
+
+void saveUsd(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
+             const py::object& weights, const Clip* clip, double timeCodesPerSecond, bool head,
+             const py::object& pivot, double metersPerUnit, bool zUp) {
+  checkKind(path, ".usda");
+  UsdOptions options;
+  options.lod = level;
+  options.morphNormals = morphNormals;
+  if (!weights.is_none()) options.weights = weightsFrom(rig, weights);
+  options.timeCodesPerSecond = timeCodesPerSecond;
+  options.metersPerUnit = metersPerUnit, options.zUp = zUp;
+  Played played;
+  played.setIn(options, rig, clip, head, pivot);
+  released([&] { return valueOf(writeFile(path, valueOf(formatUsd(rig, options)))); });
 }
 
 void saveObj(const Rig& rig, const std::filesystem::path& path, const py::object& weights) {
@@ -165,6 +193,12 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
            "an animation, in as few keys as keep its weights within key_tolerance, if that is "
            "given. With head, the whole model turns by the clip's angles of the head, about the "
            "pivot [3] or else its middle.")
+      .def("save_usd", &saveUsd, "path"_a, py::kw_only(), "level"_a = 0, "morph_normals"_a = false,
+           "weights"_a = py::none(), "clip"_a = nullptr, "time_codes_per_second"_a = 24,
+           "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
+           "Writes a .usda with the targets as blend shapes of UsdSkel. A clip becomes a time "
+           "sample for each of its frames. meters_per_unit 0: 1 for a rig from a GLB, otherwise "
+           "what its units are, or 0.01. The rest as in save_glb.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
            "Writes an expression as an OBJ, in the source's order, with the surface's normals.")
       .def("packed", &packed, "tolerance"_a = 0, py::kw_only(), "texture_bits"_a = 0,

@@ -35,13 +35,6 @@ std::string packedScene(std::string scene);
 /// rig without a scene.
 Result<void> checkScene(const Rig& rig);
 
-/// How a whole model turns about a point.
-struct HeadTrack {
-  std::vector<double> times;          ///< [F] seconds, increasing
-  std::vector<Quaternion> rotations;  ///< [F]
-  Vec3 pivot;
-};
-
 /// How far a head's turn may be off, in radians, when it is reduced to as few keys as possible.
 inline constexpr double kHeadTolerance = 0.001;
 

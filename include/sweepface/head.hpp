@@ -25,6 +25,13 @@ using Quaternion = std::array<double, 4>;
 Quaternion quaternionOf(const Angles& angles);
 Vec3 turned(const Quaternion& by, const Vec3& v);
 
+/// How a whole model turns about a point.
+struct HeadTrack {
+  std::vector<double> times;          ///< [F] seconds, increasing
+  std::vector<Quaternion> rotations;  ///< [F]
+  Vec3 pivot;
+};
+
 /// How head and eyes stand.
 struct HeadPose {
   Angles head, leftEye, rightEye;

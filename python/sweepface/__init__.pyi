@@ -231,6 +231,20 @@ class Rig:
         head: bool = False,
         pivot: Optional[ArrayLike] = None,
     ) -> None: ...
+    def save_usd(
+        self,
+        path: Path,
+        *,
+        level: int = 0,
+        morph_normals: bool = False,
+        weights: Weights = None,
+        clip: Optional[Clip] = None,
+        time_codes_per_second: float = 24,
+        head: bool = False,
+        pivot: Optional[ArrayLike] = None,
+        meters_per_unit: float = 0,
+        z_up: bool = False,
+    ) -> None: ...
     def save_obj(self, path: Path, weights: Weights = None) -> None: ...
     def packed(self, tolerance: float = 0, *, texture_bits: int = 0, progress: Progress = None) -> Rig: ...
     def stripped(self, parts: str) -> Rig: ...

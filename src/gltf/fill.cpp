@@ -87,7 +87,7 @@ class Packer {
 
 class Filler {
  public:
-  Filler(BoundScene& scene, const Shapes& shapes, const Places& places,
+  Filler(BoundScene& scene, const MorphShapes& shapes, const Places& places,
          const std::vector<Encoding>& encodings, bool morphNormals, Builder& builder, Slots& slots)
       : scene_(scene),
         shapes_(shapes),
@@ -185,7 +185,7 @@ class Filler {
 
   void evaluate(std::size_t target, std::vector<Morph>& morphs) const {
     const bool normals = std::ranges::any_of(morphs, [](const Morph& m) { return !!m.normals; });
-    const ShapeAt shape = shapes_.target(scene_.targets[target], normals);
+    const MorphShape shape = shapes_.target(scene_.targets[target], normals);
     for (Morph& m : morphs) {
       m.positions = packers_[m.run].differences(shape.positions);
       if (m.normals)
@@ -203,7 +203,7 @@ class Filler {
   }
 
   BoundScene& scene_;
-  const Shapes& shapes_;
+  const MorphShapes& shapes_;
   bool morphNormals_;
   Builder& builder_;
   Slots& slots_;
@@ -215,7 +215,7 @@ class Filler {
 
 }  // namespace
 
-Result<void> fill(BoundScene& scene, const Shapes& shapes, const Places& places,
+Result<void> fill(BoundScene& scene, const MorphShapes& shapes, const Places& places,
                   const std::vector<Encoding>& encodings, bool morphNormals, Builder& builder,
                   Slots& slots) {
   return Filler(scene, shapes, places, encodings, morphNormals, builder, slots).fill();

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "gltf/bound_scene.hpp"
-#include "gltf/shapes.hpp"
 #include "gltf/slots.hpp"
+#include "mesh/morph_shapes.hpp"
 
 namespace sweepface::gltf {
 
@@ -18,7 +18,7 @@ using Places = std::vector<std::vector<Index>>;
 
 /// Gives the parts of a scene their positions, normals and morph targets. With `morphNormals` every
 /// target gets normals, otherwise only those that had them. Fails if the file outgrows a GLB.
-Result<void> fill(BoundScene& scene, const Shapes& shapes, const Places& places,
+Result<void> fill(BoundScene& scene, const MorphShapes& shapes, const Places& places,
                   const std::vector<Encoding>& encodings, bool morphNormals, Builder& builder,
                   Slots& slots);
 

@@ -143,7 +143,7 @@ class GlbWriter {
   const Rig& rig_;
   const GlbOptions& options_;
   Tessellation grid_;
-  Shapes shapes_;
+  MorphShapes shapes_;
   BoundScene scene_;
 };
 
@@ -160,15 +160,6 @@ Rig looseRig(const MeshRig& meshes) {
     for (std::size_t v = 0; v < rest.size(); ++v) ways.push_back(target.positions[v] - rest[v]);
   }
   return rig;
-}
-
-/// Replaces unknown polygons by those of the surface.
-void takeFacesOfSurface(Rig& rig) {
-  const auto loose = static_cast<Index>(rig.source.loose.size());
-  SourceMesh source = gridSource(rig.surface);
-  source.loose = std::move(rig.source.loose);
-  for (Index k = 0; k < loose; ++k) source.gridVertex.push_back(-1 - k);
-  rig.source = std::move(source);
 }
 
 }  // namespace
@@ -192,7 +183,7 @@ Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   if (!unknownFaces && !unknownOrder) return gltf::GlbWriter(rig, options).write();
   Rig whole = rig;
   whole.scene.clear();
-  if (unknownFaces) gltf::takeFacesOfSurface(whole);
+  if (unknownFaces) takeFacesOfSurface(whole);
   return gltf::GlbWriter(whole, options).write();
 }
 

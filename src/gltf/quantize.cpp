@@ -24,7 +24,7 @@ double roomy(double half) { return half > 0 ? single(half * (1 + 1e-6)) : 1; }
 
 }  // namespace
 
-std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& shapes,
+std::vector<Encoding> chooseEncodings(const BoundScene& scene, const MorphShapes& shapes,
                                       const Places& places) {
   const Parts& parts = scene.parts;
   std::vector<Box> boxes(parts.meshes.size());

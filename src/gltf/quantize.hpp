@@ -6,7 +6,7 @@ namespace sweepface::gltf {
 
 /// Chooses cubes around the vertices of every mesh that has parts, large enough for every target's
 /// differences as well (KHR_mesh_quantization).
-std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& shapes,
+std::vector<Encoding> chooseEncodings(const BoundScene& scene, const MorphShapes& shapes,
                                       const Places& places);
 
 /// Makes the nodes and skins that show quantized meshes undo the encoding. Fails if one cannot.

@@ -41,4 +41,12 @@ SourceMesh gridSource(const Surface& surface) {
   return source;
 }
 
+void takeFacesOfSurface(Rig& rig) {
+  const auto loose = static_cast<Index>(rig.source.loose.size());
+  SourceMesh source = gridSource(rig.surface);
+  source.loose = std::move(rig.source.loose);
+  for (Index k = 0; k < loose; ++k) source.gridVertex.push_back(-1 - k);
+  rig.source = std::move(source);
+}
+
 }  // namespace sweepface

@@ -8,4 +8,7 @@ namespace sweepface {
 /// cut into its edges; quads, and triangles at collapsed sides. Faces come patch by patch.
 SourceMesh gridSource(const Surface& surface);
 
+/// Replaces polygons that a rig does not know by those of its surface. Loose vertices stay.
+void takeFacesOfSurface(Rig& rig);
+
 }  // namespace sweepface

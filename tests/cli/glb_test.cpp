@@ -144,8 +144,8 @@ TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
   convertRig();
   folder.file("out.glb", "old");
   folder.file("folder.glb/file", "");
-  EXPECT_TRUE(fails("export face.sweep -o out.obj --quantize", "are for .glb files"));
-  EXPECT_TRUE(fails("export face.sweep -o out.obj --morph-normals", "are for .glb files"));
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --quantize", "is for .glb"));
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --morph-normals", "is for .glb"));
   EXPECT_TRUE(fails("export face.sweep -o out.gltf", "must end in"));
   EXPECT_TRUE(fails("export face.sweep -o folder.glb", "it is a folder"));
   EXPECT_TRUE(fails("export face.sweep -o out.glb --weights frown=1", "no target named 'frown'"));
@@ -153,7 +153,7 @@ TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
   EXPECT_TRUE(fails("export face.sweep -o out.glb --lod 2 --source-order", "--lod", 2));
   const std::string animate = "animate face.sweep --to smile=1 ";
   EXPECT_TRUE(fails(animate + "-o frames --keys exact", "are for .glb files"));
-  EXPECT_TRUE(fails(animate + "-o frames --quantize", "are for .glb files"));
+  EXPECT_TRUE(fails(animate + "-o frames --quantize", "is for .glb"));
   EXPECT_TRUE(fails(animate + "-o out.glb --keys few --frames 10", "leave --frames and --fps out"));
   EXPECT_TRUE(fails(animate + "-o out.glb --law spring --seconds 1e7", "too long to look for"));
   EXPECT_TRUE(

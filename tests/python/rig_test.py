@@ -36,7 +36,12 @@ class Files(FaceTest):
             sweepface.load(SAMPLE, memory=1000)
         with self.refuses("no/folder.sweep"):
             self.rig.save(self.path("no/folder.sweep"))
-        for save, name in ((self.rig.save, "a.glb"), (self.rig.save_glb, "a.sweep"), (self.rig.save_obj, "a.ply")):
+        for save, name in (
+            (self.rig.save, "a.glb"),
+            (self.rig.save_glb, "a.sweep"),
+            (self.rig.save_usd, "a.usdz"),
+            (self.rig.save_obj, "a.ply"),
+        ):
             with self.refuses("must end in"):
                 save(self.path(name))
 
@@ -69,6 +74,26 @@ class Files(FaceTest):
         self.assertAlmostEqual(back[0, self.rig.target_names.index("jawOpen")], 1, places=6)
         with self.refuses("jawOpenn"):
             self.rig.save_glb(self.path("face.glb"), weights={"jawOpenn": 0.5})
+
+
+    def test_become_usds_with_clips(self):
+        clip = sweepface.Clip(["JawOpen", "tail"], [7, 7.5, 8], [[0, 0], [1, 0], [0, 0]])
+        path = self.path("face.usda")
+        self.rig.save_usd(path, clip=clip, weights={"jawOpen": 0.5}, time_codes_per_second=30, meters_per_unit=1)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn("    endTimeCode = 30\n    metersPerUnit = 1\n    startTimeCode = 0\n", text)
+        self.assertIn("]," + "\n" + 16 * " " + "15: [", text)
+        self.assertEqual(text.count("def BlendShape"), len(self.rig.target_names))
+        self.rig.save_usd(path, level=2, morph_normals=True, z_up=True)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn('upAxis = "Z"', text)
+        self.assertEqual(text.count("normalOffsets"), len(self.rig.target_names))
+        with self.refuses("leave the pivot out"):
+            self.rig.save_usd(path, pivot=[0, 0, 0])
+        with self.refuses("Metres a unit"):
+            self.rig.save_usd(path, meters_per_unit=-1)
 
 
 class Contents(FaceTest):

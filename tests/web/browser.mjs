@@ -9,13 +9,16 @@ import { chromium } from 'playwright-core';
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.glb': 'model/gltf-binary',
                 '.wasm': 'application/wasm', '.json': 'application/json' };
 
-function serve(folders) {
+// With these a page may share memory between threads, but nothing may come from elsewhere.
+const isolated = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
+
+function serve(folders, headers) {
   const server = createServer((request, response) => {
     const name = decodeURIComponent(new URL(request.url, 'http://localhost').pathname).slice(1) || 'index.html';
     for (const folder of folders) {
       try {
         const body = readFileSync(path.join(folder, path.normalize(name)));
-        response.writeHead(200, { 'content-type': types[path.extname(name)] ?? 'application/octet-stream' });
+        response.writeHead(200, { 'content-type': types[path.extname(name)] ?? 'application/octet-stream', ...headers });
         return response.end(body);
       } catch { /* in the next folder, perhaps */ }
     }
@@ -24,7 +27,7 @@ function serve(folders) {
   return new Promise((done) => server.listen(0, '127.0.0.1', () => done(server)));
 }
 
-const modules = new URL('node_modules/', import.meta.url);
+export const modules = new URL('node_modules/', import.meta.url);
 
 async function fromModules(route) {
   const [, name, version, file] = route.request().url().match(/\/npm\/([^@/]+)@([^/]+)\/(.*)$/);
@@ -33,9 +36,12 @@ async function fromModules(route) {
   return route.fulfill({ body: readFileSync(new URL(`${name}/${file}`, modules)), contentType: 'text/javascript' });
 }
 
-/** Opens `address` of a page served from `folders` and passes it to `use`, with its console output. */
-export async function withPage(folders, address, use) {
-  const server = await serve(folders);
+/**
+ * Opens `address` of a page served from `folders` and passes it to `use`, with its console output. An `alone` page may
+ * start threads that share its memory, but gets nothing from elsewhere.
+ */
+export async function withPage(folders, address, use, { alone = false } = {}) {
+  const server = await serve(folders, alone ? isolated : {});
   const browser = await chromium.launch({
     executablePath: process.env.SWEEPFACE_CHROMIUM,
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],

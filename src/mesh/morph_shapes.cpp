@@ -1,9 +1,9 @@
-#include "gltf/shapes.hpp"
+#include "mesh/morph_shapes.hpp"
 
-namespace sweepface::gltf {
+namespace sweepface {
 namespace {
 
-const Vec3 up{0, 0, 1};
+const Vec3 noNormal{0, 0, 1};  // of vertices without a surface
 
 void appendAll(std::vector<Vec3>& list, const std::vector<Vec3>& more) {
   list.insert(list.end(), more.begin(), more.end());
@@ -11,24 +11,24 @@ void appendAll(std::vector<Vec3>& list, const std::vector<Vec3>& more) {
 
 }  // namespace
 
-Shapes::Shapes(const Rig& rig, const Tessellation& grid) : rig_(rig), grid_(grid) {
+MorphShapes::MorphShapes(const Rig& rig, const Tessellation& grid) : rig_(rig), grid_(grid) {
   const std::vector<Vec3> vectors = blend(rig, {});
   neutral_ = {grid.positions(vectors), normals(vectors)};
   appendAll(neutral_.positions, rig.source.loose);
 }
 
-Index Shapes::placeOf(Index sourceVertex) const {
+Index MorphShapes::placeOf(Index sourceVertex) const {
   const Index g = rig_.source.gridVertex[sourceVertex];
   return g >= 0 ? g : grid_.vertexCount() - 1 - g;
 }
 
-ShapeAt Shapes::target(Index target, bool withNormals) const {
+MorphShape MorphShapes::target(Index target, bool withNormals) const {
   // Evaluation is linear, so the difference of the vectors gives that of the vertices, and zeros
   // stay zeros.
   const Target& t = rig_.targets[target];
   std::vector<Vec3> difference(rig_.surface.vectorCount());
   rig_.surface.settle(t.difference, difference);
-  ShapeAt result{grid_.positions(difference), {}};
+  MorphShape result{grid_.positions(difference), {}};
   appendAll(result.positions, t.looseDifference);
   if (!withNormals) return result;
 
@@ -37,12 +37,12 @@ ShapeAt Shapes::target(Index target, bool withNormals) const {
   return result;
 }
 
-std::vector<Vec3> Shapes::normals(std::span<const Vec3> vectors) const {
+std::vector<Vec3> MorphShapes::normals(std::span<const Vec3> vectors) const {
   std::vector<Vec3> list = grid_.normals(vectors);
-  list.resize(list.size() + rig_.source.loose.size(), up);
+  list.resize(list.size() + rig_.source.loose.size(), noNormal);
   for (Vec3& n : list)
-    if (!isFinite(n) || n == Vec3{}) n = up;
+    if (!isFinite(n) || n == Vec3{}) n = noNormal;
   return list;
 }
 
-}  // namespace sweepface::gltf
+}  // namespace sweepface

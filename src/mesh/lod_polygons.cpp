@@ -1,11 +1,11 @@
-#include "lod_polygons.hpp"
+#include "sweepface/lod_polygons.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
-namespace sweepface::cli {
+namespace sweepface {
 namespace {
 
 /// Texture coordinates inside the source's quads. Quads that share an edge of the texture share its
@@ -129,4 +129,4 @@ Polygons lodPolygons(const Rig& rig, const Tessellation& grid) {
   return LodPolygons(rig, grid).make();
 }
 
-}  // namespace sweepface::cli
+}  // namespace sweepface

@@ -1,0 +1,93 @@
+#include "usd/skeleton.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "usd/values.hpp"
+
+namespace sweepface::usd {
+namespace {
+
+std::string matrixAt(const Vec3& origin) {
+  return fmt::format("((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), ({}, {}, {}, 1))",
+                     number(origin.x), number(origin.y), number(origin.z));
+}
+
+/// USD has the real part first.
+std::string rotation(const Quaternion& q) { return tuple(std::array{q[3], q[0], q[1], q[2]}); }
+
+/// Times are whole numbers of time codes where they are meant to be, in spite of rounding.
+double timeCode(double seconds, const UsdOptions& options) {
+  const double code = seconds * options.timeCodesPerSecond, whole = std::round(code);
+  return std::abs(code - whole) < 1e-6 ? whole : code;
+}
+
+void addWeights(Text& text, const Rig& rig, const UsdOptions& options) {
+  std::vector<std::string> names;
+  for (const Target& target : rig.targets) names.push_back(target.name);
+  text.set("uniform token[] blendShapes", list(names));
+  const Weights still(names.size());
+  text.set("float[] blendShapeWeights",
+           list(std::span<const double>(options.weights.empty() ? still : options.weights)));
+  if (!options.clip) return;
+  text.openSamples("float[] blendShapeWeights");
+  const Clip& clip = *options.clip;
+  for (std::size_t frame = 0; frame < clip.times.size(); ++frame)
+    text.addSample(fmt::format("{}", timeCode(clip.times[frame], options)),
+                   list(std::span(clip.weights).subspan(frame * names.size(), names.size())));
+  text.close();
+}
+
+void addRotations(Text& text, const HeadTrack& head, const UsdOptions& options) {
+  text.openSamples("quatf[] rotations");
+  for (std::size_t k = 0; k < head.times.size(); ++k)
+    text.addSample(fmt::format("{}", timeCode(head.times[k], options)),
+                   fmt::format("[{}]", rotation(head.rotations[k])));
+  text.close();
+}
+
+}  // namespace
+
+bool moves(const Rig& rig, const UsdOptions& options) {
+  return !rig.targets.empty() || options.head;
+}
+
+std::optional<TimeCodes> timeCodes(const UsdOptions& options) {
+  const std::vector<double>* const times = options.clip   ? &options.clip->times
+                                           : options.head ? &options.head->times
+                                                          : nullptr;
+  if (!times) return std::nullopt;
+  return TimeCodes{timeCode(times->front(), options), timeCode(times->back(), options)};
+}
+
+void addSkeleton(Text& text, const std::string& path, const std::string& name, const Rig& rig,
+                 const UsdOptions& options) {
+  const Vec3 pivot = options.head ? options.head->pivot : Vec3{};
+  const std::string joints = R"(["head"])", transforms = "[" + matrixAt(pivot) + "]";
+  text.open("Skeleton", name, {R"(prepend apiSchemas = ["SkelBindingAPI"])"});
+  text.set("uniform matrix4d[] bindTransforms", transforms);
+  text.set("uniform token[] joints", joints);
+  text.set("uniform matrix4d[] restTransforms", transforms);
+  text.set("rel skel:animationSource", fmt::format("<{}/{}/animation>", path, name));
+  text.open("SkelAnimation", "animation");
+  if (!rig.targets.empty()) addWeights(text, rig, options);
+  text.set("uniform token[] joints", joints);
+  text.set("quatf[] rotations", "[(1, 0, 0, 0)]");
+  if (options.head) addRotations(text, *options.head, options);
+  text.set("half3[] scales", "[(1, 1, 1)]");
+  text.set("float3[] translations", "[" + tuple(pivot) + "]");
+  text.close();
+  text.close();
+}
+
+void bindToJoint(Text& text, const std::string& skeleton, std::size_t points) {
+  const std::vector<Index> joints(points, 0);
+  const std::vector<double> weights(points, 1);
+  constexpr std::string_view size = "elementSize = 1", kind = R"(interpolation = "vertex")";
+  text.set("int[] primvars:skel:jointIndices", list(std::span<const Index>(joints)), {size, kind});
+  text.set("float[] primvars:skel:jointWeights", list(std::span<const double>(weights)),
+           {size, kind});
+  text.set("rel skel:skeleton", fmt::format("<{}>", skeleton));
+}
+
+}  // namespace sweepface::usd

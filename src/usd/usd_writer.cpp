@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+#include "sweepface/usd.hpp"
+
+#include "mesh/grid_source.hpp"
+#include "rig/source_quads.hpp"
+#include "usd/mesh.hpp"
+#include "usd/skeleton.hpp"
+#include "usd/values.hpp"
+
+namespace sweepface {
+namespace usd {
+namespace {
+
+bool increase(const std::vector<double>& times) {
+  return std::ranges::adjacent_find(times, std::greater_equal()) == times.end();
+}
+
+Result<void> check(const Clip& clip, std::size_t targets) {
+  if (targets == 0)
+    return fail(
+        "The face has no targets to animate; convert it with the meshes of its expressions.");
+  if (clip.names.size() != targets)
+    return fail(fmt::format("The clip has {} weights, but the face {} targets.", clip.names.size(),
+                            targets));
+  if (clip.times.empty()) return fail("The clip has no frames.");
+  if (clip.weights.size() != clip.times.size() * targets)
+    return fail("The clip has not as many weights as it has frames times names.");
+  if (!std::ranges::all_of(clip.times, isPlausibleTime) || !increase(clip.times))
+    return fail("The times of the clip do not increase, or are beyond 300 years.");
+  if (!areSingle(clip.weights))
+    return fail("A weight of the clip is too large for the single precision of USD.");
+  return {};
+}
+
+Result<void> check(const HeadTrack& head) {
+  if (head.rotations.empty() || head.rotations.size() != head.times.size() ||
+      !std::ranges::all_of(head.times, isPlausibleTime) || !increase(head.times) ||
+      !areSingle(std::array{head.pivot}) ||
+      !std::ranges::all_of(head.rotations, [](auto& q) { return areSingle(q); }))
+    return fail("The head's rotation needs one for each of its increasing times.");
+  return {};
+}
+
+Result<void> check(const Rig& rig, const UsdOptions& options) {
+  if (!rig.knowsTargets())
+    return fail("The targets of the face are not decoded yet; decode them before it is written.");
+  const std::size_t targets = rig.targets.size();
+  if (!options.weights.empty() && options.weights.size() != targets)
+    return fail(fmt::format("The expression has {} weights, but the face {} targets.",
+                            options.weights.size(), targets));
+  if (!areSingle(options.weights))
+    return fail("A weight is too large for the single precision of USD.");
+  if (options.lod < 0) return fail("A level of detail is 0 or more.");
+  if (!(options.timeCodesPerSecond > 0 && options.timeCodesPerSecond < 1e9))
+    return fail("Time codes a second are a number above 0.");
+  if (!(options.metersPerUnit >= 0 && options.metersPerUnit < 1e30))
+    return fail("Metres a unit are a number above 0.");
+  if (options.clip)
+    if (auto ok = check(*options.clip, targets); !ok) return ok;
+  return options.head ? check(*options.head) : Result<void>{};
+}
+
+double metersPerUnit(const Rig& rig, const UsdOptions& options) {
+  if (options.metersPerUnit > 0) return options.metersPerUnit;
+  if (!rig.scene.empty()) return 1;
+  constexpr std::array<std::pair<std::string_view, double>, 7> known{{{"mm", 0.001},
+                                                                      {"cm", 0.01},
+                                                                      {"dm", 0.1},
+                                                                      {"m", 1},
+                                                                      {"km", 1000},
+                                                                      {"in", 0.0254},
+                                                                      {"ft", 0.3048}}};
+  const auto* const unit =
+      std::ranges::find(known, rig.names.units, &std::pair<std::string_view, double>::first);
+  return unit != known.end() ? unit->second : 0.01;
+}
+
+std::string header(const Rig& rig, const UsdOptions& options) {
+  std::string text =
+      "#usda 1.0\n(\n    defaultPrim = \"face\"\n    doc = \"sweepface " SWEEPFACE_VERSION "\"\n";
+  const auto times = timeCodes(options);
+  if (times) text += fmt::format("    endTimeCode = {}\n", times->last);
+  text += fmt::format("    metersPerUnit = {}\n", metersPerUnit(rig, options));
+  if (times) text += fmt::format("    startTimeCode = {}\n", times->first);
+  return text + fmt::format("    timeCodesPerSecond = {}\n    upAxis = \"{}\"\n)\n\n",
+                            options.timeCodesPerSecond, options.zUp ? 'Z' : 'Y');
+}
+
+Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options) {
+  const std::string root = "/face", skeleton = "skeleton";
+  const bool isMoved = moves(rig, options);
+  const MeshWriter mesh(rig, options);
+  Text text;
+  text.open(isMoved ? "SkelRoot" : "Xform", "face");
+  if (isMoved) addSkeleton(text, root, skeleton, rig, options);
+  if (auto ok = mesh.add(text, root, "mesh", isMoved ? root + "/" + skeleton : ""); !ok)
+    return std::unexpected(ok.error());
+  mesh.materials().addScope(text, root);
+  text.close();
+  return header(rig, options) + text.take();
+}
+
+}  // namespace
+}  // namespace usd
+
+Result<std::string> formatUsd(const Rig& rig, const UsdOptions& options) {
+  if (auto ok = usd::check(rig, options); !ok) return std::unexpected(ok.error());
+  if (rig.source.polygons.faceCount() > 0 && (options.lod == 0 || knowsQuads(rig)))
+    return usd::writeLayer(rig, options);
+  Rig whole = rig;
+  takeFacesOfSurface(whole);
+  return usd::writeLayer(whole, options);
+}
+
+}  // namespace sweepface
