@@ -216,7 +216,7 @@ Result<void> animateUsd(const AnimateArguments& a, const Rig& rig, const Perform
   const auto head = headTrack(a.head, rig, performance, *times);
   if (!head) return std::unexpected(head.error());
   if (*head) options.head = &**head;
-  const Result<std::string> text = formatUsd(rig, options);
+  const Result<std::string> text = formatUsdFor(a.output, rig, options);
   if (!text) return std::unexpected(text.error());
   if (auto written = writeFile(utf8Path(a.output), *text); !written) return written;
   if (!a.quiet) printFrames(a, clip.times.size(), performance);
@@ -302,7 +302,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
                             a.what.clip));
   if (isFile)
     if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.what.clipNames, a.regions.file},
-                              {".glb", ".usda", ".usd", ".csv"}, !a.quiet);
+                              {".glb", ".usda", ".usd", ".usdz", ".csv"}, !a.quiet);
         !ok)
       return std::unexpected(ok.error());
   const Result<void> written = (glb      ? animateGlb

@@ -108,7 +108,7 @@ Result<std::string> formatRig(const ExportArguments& a, const Rig& rig, const We
   if (isUsd(a.output)) {
     UsdOptions options = a.rigFile.usd(a.lod);
     if (shows) options.weights = weights;
-    return formatUsd(rig, options);
+    return formatUsdFor(a.output, rig, options);
   }
   GlbOptions options = a.rigFile.glb(a.lod);
   if (shows) options.weights = weights;
@@ -205,7 +205,9 @@ Result<int> runExport(const ExportArguments& a) {
   Result<Weights> weights = weightsGiven("--weights", a.weights, *rig);
   if (!weights) return std::unexpected(weights.error());
   if (!isFolder)
-    if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb", ".usda", ".usd"}, !a.quiet); !ok)
+    if (auto ok =
+            checkOutput(a.output, {a.face}, {".obj", ".glb", ".usda", ".usd", ".usdz"}, !a.quiet);
+        !ok)
       return std::unexpected(ok.error());
   const Result<Following> following = follow(a.following, *rig, {*weights});
   if (!following) return std::unexpected(following.error());

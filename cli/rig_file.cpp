@@ -6,15 +6,16 @@ namespace sweepface::cli {
 
 void addRigFile(CLI::App& app, RigFileArguments& a) {
   app.add_flag("--morph-normals", a.morphNormals,
-               "For .glb and .usda: normals of the targets too; larger, and better shaded");
+               "For .glb, .usda and .usdz: normals of the targets too; larger, and better shaded");
   app.add_flag("--quantize", a.quantize,
                "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
   app.add_option("--meters-per-unit", a.metersPerUnit,
-                 "For .usda: how long a unit of the face is, 0.01 for centimetres; if not given 1 "
+                 "For .usda and .usdz: how long a unit of the face is, 0.01 for centimetres; if "
+                 "not given 1 "
                  "for a face from a .glb, and otherwise 0.01")
       ->check(positiveNumber(1e9))
       ->type_name("M");
-  app.add_flag("--z-up", a.zUp, "For .usda: z points up in the face, instead of y");
+  app.add_flag("--z-up", a.zUp, "For .usda and .usdz: z points up in the face, instead of y");
 }
 
 Result<void> checkRigFile(const RigFileArguments& a, std::string_view output) {
@@ -23,13 +24,19 @@ Result<void> checkRigFile(const RigFileArguments& a, std::string_view output) {
     return fail(
         fmt::format("{} for {} files; name the output so or leave that out.", options, kinds));
   };
-  if (a.morphNormals && !glb && !usd) return refuse("--morph-normals is", ".glb and .usda");
+  if (a.morphNormals && !glb && !usd) return refuse("--morph-normals is", ".glb, .usda and .usdz");
   if (a.quantize && !glb) return refuse("--quantize is", ".glb");
-  if (a.metersPerUnit > 0 && !usd) return refuse("--meters-per-unit is", ".usda");
-  if (a.zUp && !usd) return refuse("--z-up is", ".usda");
+  if (a.metersPerUnit > 0 && !usd) return refuse("--meters-per-unit is", ".usda and .usdz");
+  if (a.zUp && !usd) return refuse("--z-up is", ".usda and .usdz");
   return {};
 }
 
-bool isUsd(std::string_view path) { return isOfKind(path, ".usda") || isOfKind(path, ".usd"); }
+bool isUsd(std::string_view path) {
+  return isOfKind(path, ".usda") || isOfKind(path, ".usd") || isOfKind(path, ".usdz");
+}
+
+Result<std::string> formatUsdFor(std::string_view path, const Rig& rig, const UsdOptions& options) {
+  return (isOfKind(path, ".usdz") ? formatUsdz : formatUsd)(rig, options);
+}
 
 }  // namespace sweepface::cli

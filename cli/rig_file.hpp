@@ -23,7 +23,9 @@ void addRigFile(CLI::App& app, RigFileArguments& a);
 /// Refuses options that a file of this name cannot have.
 Result<void> checkRigFile(const RigFileArguments& a, std::string_view output);
 
-/// Whether it is a .usda or .usd.
+/// Whether it is a .usda, .usd or .usdz.
 bool isUsd(std::string_view path);
+/// What a file of that name holds.
+Result<std::string> formatUsdFor(std::string_view path, const Rig& rig, const UsdOptions& options);
 
 }  // namespace sweepface::cli

@@ -72,7 +72,8 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, boo
 void saveUsd(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
              const py::object& weights, const Clip* clip, double timeCodesPerSecond, bool head,
              const py::object& pivot, double metersPerUnit, bool zUp) {
-  checkKind(path, ".usda");
+  const bool isArchive = extensionOf(path) == ".usdz";
+  if (!isArchive) checkKind(path, ".usda");
   UsdOptions options;
   options.lod = level;
   options.morphNormals = morphNormals;
@@ -81,7 +82,9 @@ void saveUsd(const Rig& rig, const std::filesystem::path& path, Index level, boo
   options.metersPerUnit = metersPerUnit, options.zUp = zUp;
   Played played;
   played.setIn(options, rig, clip, head, pivot);
-  released([&] { return valueOf(writeFile(path, valueOf(formatUsd(rig, options)))); });
+  released([&] {
+    return valueOf(writeFile(path, valueOf((isArchive ? formatUsdz : formatUsd)(rig, options))));
+  });
 }
 
 void saveObj(const Rig& rig, const std::filesystem::path& path, const py::object& weights) {
@@ -196,8 +199,9 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
       .def("save_usd", &saveUsd, "path"_a, py::kw_only(), "level"_a = 0, "morph_normals"_a = false,
            "weights"_a = py::none(), "clip"_a = nullptr, "time_codes_per_second"_a = 24,
            "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
-           "Writes a .usda with the targets as blend shapes of UsdSkel. A clip becomes a time "
-           "sample for each of its frames. meters_per_unit 0: 1 for a rig from a GLB, otherwise "
+           "Writes a .usda, or a .usdz with the images of its materials, with the targets as blend "
+           "shapes of UsdSkel. A clip becomes a time sample for each of its frames. "
+           "meters_per_unit 0: 1 for a rig from a GLB, otherwise "
            "what its units are, or 0.01. The rest as in save_glb.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
            "Writes an expression as an OBJ, in the source's order, with the surface's normals.")

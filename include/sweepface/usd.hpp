@@ -25,7 +25,9 @@ struct UsdOptions {
 };
 
 /// A layer of OpenUSD in text (.usda): the rig as a mesh whose targets are blend shapes of UsdSkel
-/// (docs/usd.md). The scene that came with the rig is left out.
+/// (docs/usd.md). Of the scene that came with the rig it has the colours of its materials.
 Result<std::string> formatUsd(const Rig& rig, const UsdOptions& options);
+/// The same layer and the images of its materials in one file (.usdz).
+Result<std::string> formatUsdz(const Rig& rig, const UsdOptions& options);
 
 }  // namespace sweepface

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "usd/shaders.hpp"
 #include "usd/values.hpp"
 
 namespace sweepface::usd {
@@ -36,25 +37,19 @@ void Materials::addSubsets(Text& text, const std::string& path, PrimNames& names
   }
 }
 
-void Materials::addScope(Text& text, const std::string& path) const {
+void Materials::addScope(Text& text, const std::string& path, const Looks& looks) const {
   if (empty()) return;
   text.open("Scope", "materials");
   for (const Used& material : used_) {
+    const std::string prim = fmt::format("{}/materials/{}", path, material.prim);
     const std::string called = "displayName = " + inQuotes(material.name);
     if (material.name == material.prim)
       text.open("Material", material.prim);
     else
       text.open("Material", material.prim, {called});
-    text.set("token outputs:surface.connect",
-             fmt::format("<{}/materials/{}/shader.outputs:surface>", path, material.prim));
-    // As formatGlb has them: white, no metal, rough.
-    text.open("Shader", "shader");
-    text.set("uniform token info:id", R"("UsdPreviewSurface")");
-    text.set("color3f inputs:diffuseColor", "(1, 1, 1)");
-    text.set("float inputs:metallic", "0");
-    text.set("float inputs:roughness", "0.7");
-    text.declare("token outputs:surface");
-    text.close();
+    text.set("token outputs:surface.connect", fmt::format("<{}/shader.outputs:surface>", prim));
+    const auto look = looks.byName.find(material.name);
+    addShaders(text, prim, look == looks.byName.end() ? Look{} : look->second, looks.images);
     text.close();
   }
   text.close();

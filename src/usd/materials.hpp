@@ -5,6 +5,7 @@
 
 #include "sweepface/polygons.hpp"
 
+#include "usd/looks.hpp"
 #include "usd/prim_names.hpp"
 #include "usd/text.hpp"
 
@@ -20,8 +21,9 @@ class Materials {
   /// Adds subsets to a mesh whose other children have these names, bound to materials in a scope
   /// below `path`.
   void addSubsets(Text& text, const std::string& path, PrimNames& names) const;
-  /// Adds that scope to the prim at `path`.
-  void addScope(Text& text, const std::string& path) const;
+  /// Adds that scope to the prim at `path`. Materials that the looks do not know are white and
+  /// rough.
+  void addScope(Text& text, const std::string& path, const Looks& looks) const;
 
  private:
   struct Used {

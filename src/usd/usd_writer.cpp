@@ -6,6 +6,7 @@
 
 #include "mesh/grid_source.hpp"
 #include "rig/source_quads.hpp"
+#include "usd/archive.hpp"
 #include "usd/mesh.hpp"
 #include "usd/skeleton.hpp"
 #include "usd/values.hpp"
@@ -89,7 +90,7 @@ std::string header(const Rig& rig, const UsdOptions& options) {
                             options.timeCodesPerSecond, options.zUp ? 'Z' : 'Y');
 }
 
-Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options) {
+Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options, const Looks& looks) {
   const std::string root = "/face", skeleton = "skeleton";
   const bool isMoved = moves(rig, options);
   const MeshWriter mesh(rig, options);
@@ -98,21 +99,38 @@ Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options) {
   if (isMoved) addSkeleton(text, root, skeleton, rig, options);
   if (auto ok = mesh.add(text, root, "mesh", isMoved ? root + "/" + skeleton : ""); !ok)
     return std::unexpected(ok.error());
-  mesh.materials().addScope(text, root);
+  mesh.materials().addScope(text, root, looks);
   text.close();
   return header(rig, options) + text.take();
+}
+
+Result<std::string> layerOf(const Rig& rig, const UsdOptions& options, const Looks& looks) {
+  if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
+  if (rig.source.polygons.faceCount() > 0 && (options.lod == 0 || knowsQuads(rig)))
+    return writeLayer(rig, options, looks);
+  Rig whole = rig;
+  takeFacesOfSurface(whole);
+  return writeLayer(whole, options, looks);
 }
 
 }  // namespace
 }  // namespace usd
 
 Result<std::string> formatUsd(const Rig& rig, const UsdOptions& options) {
-  if (auto ok = usd::check(rig, options); !ok) return std::unexpected(ok.error());
-  if (rig.source.polygons.faceCount() > 0 && (options.lod == 0 || knowsQuads(rig)))
-    return usd::writeLayer(rig, options);
-  Rig whole = rig;
-  takeFacesOfSurface(whole);
-  return usd::writeLayer(whole, options);
+  auto looks = usd::looksOf(rig);
+  if (!looks) return std::unexpected(looks.error());
+  looks->images.clear();
+  return usd::layerOf(rig, options, *looks);
+}
+
+Result<std::string> formatUsdz(const Rig& rig, const UsdOptions& options) {
+  const auto looks = usd::looksOf(rig);
+  if (!looks) return std::unexpected(looks.error());
+  const auto layer = usd::layerOf(rig, options, *looks);
+  if (!layer) return layer;
+  std::vector<usd::ArchiveFile> files{{"face.usda", *layer}};
+  for (const usd::Image& image : looks->images) files.push_back({image.file, image.bytes});
+  return usd::archive(files);
 }
 
 }  // namespace sweepface

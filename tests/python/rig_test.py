@@ -6,6 +6,7 @@ import pickle
 import subprocess
 import types
 import unittest
+import zipfile
 
 import numpy as np
 import sweepface
@@ -39,7 +40,7 @@ class Files(FaceTest):
         for save, name in (
             (self.rig.save, "a.glb"),
             (self.rig.save_glb, "a.sweep"),
-            (self.rig.save_usd, "a.usdz"),
+            (self.rig.save_usd, "a.usdc"),
             (self.rig.save_obj, "a.ply"),
         ):
             with self.refuses("must end in"):
@@ -90,6 +91,12 @@ class Files(FaceTest):
             text = file.read()
         self.assertIn('upAxis = "Z"', text)
         self.assertEqual(text.count("normalOffsets"), len(self.rig.target_names))
+        archive = self.path("face.usdz")
+        self.rig.save_usd(archive, level=2, morph_normals=True, z_up=True)
+        with zipfile.ZipFile(archive) as file:
+            self.assertIsNone(file.testzip())
+            self.assertEqual(file.namelist(), ["face.usda"])
+            self.assertEqual(file.read("face.usda").decode(), text)
         with self.refuses("leave the pivot out"):
             self.rig.save_usd(path, pivot=[0, 0, 0])
         with self.refuses("Metres a unit"):

@@ -6,7 +6,7 @@ import { inWork, work } from './tool.mjs';
 
 const folders = [work, fileURLToPath(modules)];
 
-/** What OpenUSD makes of a file: its text, written anew, and what its renderers get of the mesh. */
+/** What OpenUSD makes of a file: its text, written anew, the sizes of its images, and what renderers get of the mesh. */
 const openUsd = (page, name) => page.evaluate(async (name) => {
   const folder = '/three-usdz-loader/external';
   if (!window.getUsdModule)
@@ -16,18 +16,23 @@ const openUsd = (page, name) => page.evaluate(async (name) => {
     });
   const usd = await window.getUsdModule(undefined, folder);
   await usd.ready;
-  const text = await (await fetch(name)).text(), drawn = {};
+  const bytes = new Uint8Array(await (await fetch(name)).arrayBuffer()), drawn = {};
   const drawing = (file, content) => {
     const prim = new Proxy({}, { get: (_, call) => (...given) => { drawn[call] = [...given[0] ?? []]; } });
     const make = () => prim;
-    usd.FS.createDataFile('/', file, new TextEncoder().encode(content), true, true, true);
+    usd.FS.createDataFile('/', file, content, true, true, true);
     return new usd.HdWebSyncDriver({ createRPrim: make, createBPrim: make, createSPrim: make, CommitResources() {} },
                                    file);
   };
   // This build knows no skeletons and does not draw what they hold.
-  drawing('drawn.usda', text.replace('def SkelRoot', 'def Xform')).Draw();
-  return { written: drawing('read.usda', text).GetStage().ExportToString(),
-           points: drawn.updatePoints, normals: drawn.updateNormals, triangles: drawn.updateIndices };
+  const still = new TextDecoder().decode(bytes).replace('def SkelRoot', 'def Xform');
+  if (name.endsWith('.usda')) drawing('drawn.usda', new TextEncoder().encode(still)).Draw();
+  const driver = drawing(`read${name.slice(name.lastIndexOf('.'))}`, bytes), written = driver.GetStage().ExportToString();
+  const images = {};
+  for (const [, image] of written.matchAll(/@(.*?)@/g))
+    await new Promise((done) => driver.getFile(image, (bytes) => { images[image] = bytes?.length ?? 0; done(); }));
+  return { written, images, points: drawn.updatePoints, normals: drawn.updateNormals,
+           triangles: drawn.updateIndices };
 }, name);
 
 /** TinyUSDZ's complaints, which include what is wrong with skeletons and blend shapes. */
@@ -40,6 +45,7 @@ const tinyUsdz = (page, name) => page.evaluate(async (name) => {
 
 /** A value of USD: numbers, texts and paths, in lists and tuples. */
 function parseValue(text) {
+  if (text.startsWith('@')) return text.match(/^@(?:.*\[)?(.*?)\]?@$/)[1];  // OpenUSD adds its archive
   if (/["']/.test(text))  // single quotes are around texts with double quotes in them
     return JSON.parse(text.replace(/"(?:[^"\\]|\\.)*"|'((?:[^'\\]|\\.)*)'/g, (whole, single) =>
       single === undefined ? whole : `"${single.replace(/"/g, '\\"')}"`));
@@ -91,6 +97,14 @@ export function parseUsda(text) {
   return prims;
 }
 
+/** The text of a file of USD; in an archive that is the first file, and not compressed. */
+function ownText(name) {
+  const bytes = readFileSync(inWork(name));
+  if (bytes.readUInt32LE() !== 0x04034b50) return bytes.toString('utf8');
+  const start = 30 + bytes.readUInt16LE(26) + bytes.readUInt16LE(28);
+  return bytes.toString('utf8', start, start + bytes.readUInt32LE(18));
+}
+
 /**
  * Reads files of the work folder with both: `own` is what stands in the file, `theirs` what OpenUSD wrote of it,
  * `complaints` what TinyUSDZ refuses.
@@ -101,7 +115,7 @@ export async function readUsd(...names) {
     const results = [];
     for (const name of names) {
       const { written, ...drawn } = await openUsd(page, name);
-      results.push({ ...drawn, own: parseUsda(readFileSync(inWork(name), 'utf8')), theirs: parseUsda(written),
+      results.push({ ...drawn, own: parseUsda(ownText(name)), theirs: parseUsda(written),
                      complaints: await tinyUsdz(page, name) });
     }
     return results;

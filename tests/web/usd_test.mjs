@@ -3,7 +3,9 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { capture } from './capture.mjs';
+import { Glb } from './glb.mjs';
 import { inWork, objPositions, realFaces, sampleFace, sweepface } from './tool.mjs';
 import { readUsd } from './usd.mjs';
 
@@ -54,6 +56,7 @@ function assertRead({ own, theirs, complaints }) {
   assert.equal(complaints, '');
 }
 
+const picture = fileURLToPath(new URL('../../docs/pictures/sample-jawOpen.png', import.meta.url));
 const pose = 'jawOpen=0.6,mouthSmileLeft=1';
 
 test('the face with its targets', async () => {
@@ -126,6 +129,41 @@ test('names that are no identifiers, several materials, faces without one', asyn
   assert.equal(mesh['uniform token subsetFamily:materialBind:familyType'], 'nonOverlapping');
   assert.deepEqual(Object.keys(odd.theirs).filter((prim) => /^\/face\/materials\/\w+$/.test(prim)),
                    ['skin__of__the_face', 'Haut___l', 'Haut___l_2'].map((name) => `/face/materials/${name}`));
+});
+
+test('an archive with the images of materials', async () => {
+  sweepface('export', sampleFace().sweep, '-o', inWork('plain.glb'), '-q');
+  const { json, binary } = new Glb(inWork('plain.glb'));
+  const data = (bytes) => `data:;base64,${Buffer.from(bytes).toString('base64')}`;
+  json.buffers[0].uri = data(binary);
+  json.images = [{ uri: data(readFileSync(picture)), name: 'skin colour' }];
+  json.textures = [{ source: 0, sampler: 0 }];
+  json.samplers = [{ wrapS: 33071, wrapT: 33648 }];
+  Object.assign(json.materials[0], { name: 'skin', alphaMode: 'MASK', alphaCutoff: 0.25, emissiveFactor: [0, 0.5, 1] });
+  json.materials[0].pbrMetallicRoughness = { baseColorFactor: [1, 0.5, 0.25, 0.75], baseColorTexture: { index: 0 } };
+  json.materials[0].normalTexture = { index: 0 };
+  writeFileSync(inWork('textured.gltf'), JSON.stringify(json));
+  sweepface('convert', inWork('textured.gltf'), '-o', inWork('textured.sweep'), '--tolerance', '0.1', '-q');
+  sweepface('export', inWork('textured.sweep'), '-o', inWork('textured.usdz'), '-q');
+  sweepface('export', inWork('textured.sweep'), '-o', inWork('textured.usda'), '-q');
+  const [archive, text] = await readUsd('textured.usdz', 'textured.usda');
+  assertRead(archive);
+  assertRead(text);
+  const skin = '/face/materials/skin', { values } = archive.theirs[`${skin}/shader`];
+  assert.equal(values['color3f inputs:diffuseColor.connect'], `${skin}/colour.outputs:rgb`);
+  assert.equal(values['float inputs:opacity.connect'], `${skin}/colour.outputs:a`);
+  assert.equal(values['float inputs:opacityThreshold'], 0.25);
+  const map = archive.theirs[`${skin}/colour`].values;
+  assert.equal(map['asset inputs:file'], 'textures/skin_colour.png');
+  assert.deepEqual(map['float4 inputs:scale'], [1, 0.5, 0.25, 0.75]);
+  assert.deepEqual([map['token inputs:wrapS'], map['token inputs:wrapT']], ['clamp', 'mirror']);
+  assert.ok(archive.theirs[`${skin}/normal`]);
+  assert.deepEqual(Object.entries(archive.images),
+                   [['//read.usdz[textures/skin_colour.png]', readFileSync(picture).length]]);
+  const plain = text.theirs[`${skin}/shader`].values;
+  assert.deepEqual(plain['color3f inputs:diffuseColor'], [1, 0.5, 0.25]);
+  assert.deepEqual(plain['color3f inputs:emissiveColor'], [0, 0.5, 1]);
+  assert.ok(!text.theirs[`${skin}/colour`]);
 });
 
 test('the real head', { skip: !process.env.SWEEPFACE_LONG ? 'runs in the long tests'

@@ -1,0 +1,125 @@
+#include "usd/looks.hpp"
+
+#include "sweepface/usd.hpp"
+
+#include "gltf/written.hpp"
+#include "usd/layer.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+const std::string kPng = "\x89PNG\r\n\x1A\n and the rest", kJpeg = "\xFF\xD8\xFF and the rest";
+
+/// The small face with a texture of these images.
+Glb textured(const std::vector<std::string>& images) {
+  Glb glb = smallFace();
+  for (const std::string& image : images) {
+    glb.add("images", {{"bufferView", glb.addView(image)}, {"mimeType", "image/png"}});
+    glb.add("textures", {{"source", glb.json["images"].size() - 1}});
+  }
+  return glb;
+}
+
+Json& material(Glb& glb) { return glb.json["materials"][0]; }
+
+usd::Look lookOf(const Glb& glb) {
+  const auto looks = usd::looksOf(converted(glb));
+  if (looks && looks->byName.contains("skin")) return looks->byName.at("skin");
+  ADD_FAILURE() << "no look";
+  return {};
+}
+
+TEST(Looks, AreThoseOfTheMaterial) {
+  Glb glb = smallFace();
+  material(glb) = {{"name", "skin"},
+                   {"pbrMetallicRoughness",
+                    {{"baseColorFactor", {0.5, 0.25, 7, 0.75}}, {"metallicFactor", 0.5}}},
+                   {"alphaMode", "BLEND"},
+                   {"emissiveFactor", {0, -1, 1}}};
+  const usd::Look look = lookOf(glb);
+  EXPECT_EQ(look.colour, (Vec3{0.5, 0.25, 1}));
+  EXPECT_EQ(look.emission, (Vec3{0, 0, 1}));
+  EXPECT_EQ(look.opacity, 0.75);
+  EXPECT_TRUE(look.isTransparent);
+  EXPECT_EQ(look.opacityThreshold, 0);
+  EXPECT_EQ(look.metallic, 0.5);
+  EXPECT_EQ(look.roughness, 1);
+  EXPECT_EQ(look.colourMap.image, -1);
+}
+
+TEST(Looks, OfAFaceWithoutASceneAreUnknown) {
+  const auto looks = usd::looksOf(converted(withTargets(plane(4, 4), 1)));
+  ASSERT_TRUE(looks);
+  EXPECT_TRUE(looks->byName.empty());
+}
+
+TEST(Looks, HaveTheImagesThatTheyUseOnce) {
+  Glb glb = textured({"unused", kPng, kJpeg, "a webp"});
+  glb.json["images"][1]["name"] = "my skin";
+  const auto texture = [](int index) { return Json::object({{"index", index}}); };
+  material(glb)["pbrMetallicRoughness"] = {{"baseColorTexture", texture(1)},
+                                           {"metallicRoughnessTexture", texture(2)}};
+  material(glb)["normalTexture"] = texture(1);
+  material(glb)["occlusionTexture"] = texture(3);
+  const auto looks = usd::looksOf(converted(glb));
+  ASSERT_TRUE(looks);
+  ASSERT_EQ(looks->images.size(), 2u);
+  EXPECT_EQ(looks->images[0].file, "textures/my_skin.png");
+  EXPECT_EQ(looks->images[0].bytes, kPng);
+  EXPECT_EQ(looks->images[1].file, "textures/image.jpg");
+  const usd::Look& look = looks->byName.at("skin");
+  EXPECT_EQ(look.colourMap.image, 0);
+  EXPECT_EQ(look.roughnessMap.image, 1);
+  EXPECT_EQ(look.normalMap.image, 0);
+  EXPECT_EQ(look.occlusionMap.image, -1);
+  EXPECT_EQ(look.emissionMap.image, -1);
+}
+
+// The reader gives the rig the texture coordinates of the base colour.
+TEST(Looks, LeaveOutMapsWithOtherTextureCoordinates) {
+  Glb glb = textured({kPng});
+  const Json moved = {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}};
+  material(glb)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"extensions", moved}};
+  material(glb)["normalTexture"] = {{"index", 0}};
+  material(glb)["emissiveTexture"] = {{"index", 0}, {"extensions", moved}};
+  material(glb)["occlusionTexture"] = {{"index", 0}, {"texCoord", 1}};
+  const usd::Look look = lookOf(glb);
+  EXPECT_EQ(look.colourMap.image, 0);
+  EXPECT_EQ(look.emissionMap.image, 0);
+  EXPECT_EQ(look.normalMap.image, -1);
+  EXPECT_EQ(look.occlusionMap.image, -1);
+}
+
+TEST(Looks, AreWrittenAsShaders) {
+  Glb glb = textured({kPng});
+  material(glb)["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0.5, 0.25, 0.75}},
+                                           {"baseColorTexture", {{"index", 0}}},
+                                           {"metallicRoughnessTexture", {{"index", 0}}}};
+  material(glb)["alphaMode"] = "MASK";
+  const Rig rig = converted(glb);
+  const Layer plain(formatUsd(rig, {}).value());
+  const std::string skin = "/face/materials/skin/";
+  EXPECT_EQ(plain.value(skin + "shader.color3f inputs:diffuseColor"), "(1, 0.5, 0.25)");
+  EXPECT_EQ(plain.value(skin + "shader.float inputs:opacity"), "0.75");
+  EXPECT_EQ(plain.value(skin + "shader.float inputs:opacityThreshold"), "0.5");
+  EXPECT_EQ(plain.type(skin + "colour"), "");
+  const std::string archive = formatUsdz(rig, {}).value();
+  EXPECT_NE(archive.find(kPng), std::string::npos);
+  const std::size_t start = archive.find("#usda"), end = archive.find("PK\x03\x04", start);
+  const Layer layer(archive.substr(start, end - start));
+  EXPECT_EQ(layer.value(skin + "shader.color3f inputs:diffuseColor.connect"),
+            "<" + skin + "colour.outputs:rgb>");
+  EXPECT_EQ(layer.value(skin + "shader.float inputs:opacity.connect"),
+            "<" + skin + "colour.outputs:a>");
+  EXPECT_EQ(layer.value(skin + "shader.float inputs:metallic.connect"),
+            "<" + skin + "rough.outputs:b>");
+  EXPECT_EQ(layer.value(skin + "colour.asset inputs:file"), "@textures/image.png@");
+  EXPECT_EQ(layer.value(skin + "colour.float4 inputs:scale"), "(1, 0.5, 0.25, 0.75)");
+  EXPECT_EQ(layer.value(skin + "colour.token inputs:sourceColorSpace"), R"("sRGB")");
+  EXPECT_EQ(layer.value(skin + "rough.token inputs:sourceColorSpace"), R"("raw")");
+}
+
+}  // namespace
+}  // namespace sweepface
