@@ -54,7 +54,7 @@ test('the package holds what is needed, and an application can use it', () => {
   const [packed] = JSON.parse(run('npm', ['pack', '--json', '--pack-destination', scratch]));
   assert.deepEqual(packed.files.map(({path}) => path).sort(),
                    ['LICENSE', 'README.md', 'package.json', 'sweepface.d.ts', 'sweepface.js', 'sweepface.wasm',
-                    'sweepface_animation.js', 'sweepface_captures.js', 'sweepface_card.d.ts', 'sweepface_card.js', 'sweepface_clip.js', 'sweepface_clips.d.ts', 'sweepface_clips.js',
+                    'sweepface_animation.js', 'sweepface_babylon.d.ts', 'sweepface_babylon.js', 'sweepface_captures.js', 'sweepface_card.d.ts', 'sweepface_card.js', 'sweepface_clip.js', 'sweepface_clips.d.ts', 'sweepface_clips.js',
                     'sweepface_drives.js', 'sweepface_file.js', 'sweepface_full.wasm', 'sweepface_gpu.d.ts',
                     'sweepface_gpu.js', 'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_names.js',
                     'sweepface_pin.js',

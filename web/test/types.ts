@@ -1,5 +1,8 @@
 // Compiles if the types say what the package offers. Never run.
 import {type Material, MeshBasicMaterial, type Object3D, Scene, Vector3} from 'three';
+import type {Scene as BabylonScene} from '@babylonjs/core/scene.js';
+import {StandardMaterial} from '@babylonjs/core/Materials/standardMaterial.js';
+import {SweepfaceMesh as BabylonMesh} from 'sweepface/babylon';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
@@ -46,6 +49,18 @@ export async function useThree(scene: Scene): Promise<void> {
   console.log(new SweepfaceMesh(mesh.face, new MeshBasicMaterial()).material.color, mesh.weights.jawOpen, mesh.pose);
   console.log(twin.regions.length, new SweepfaceLoader(undefined, {wasm: {href: 'a.wasm'}}).abort().options);
   mesh.dispose();
+}
+
+export async function useBabylon(scene: BabylonScene, bytes: ArrayBuffer): Promise<void> {
+  const mesh: BabylonMesh = await BabylonMesh.load('face.sweep', scene, {lod: 1});
+  mesh.setWeights({jawOpen: 0.7});
+  mesh.moveTo({jawOpen: 0}, {kind: 'spring', frequency: 3});
+  mesh.position.x = 3;
+  const twin: BabylonMesh = mesh.clone('twin'), moving: boolean = twin.advance(0.1);
+  console.log(moving, mesh.weights.jawOpen, mesh.face.tolerance, new ClipPlayer(mesh, readClip('')).match.undriven);
+  new BabylonMesh('other', scene, await Sweepface.load(bytes), new StandardMaterial('skin', scene)).dispose();
+  // @ts-expect-error A mesh is made of a face.
+  new BabylonMesh('none', scene, bytes);
 }
 
 export async function onTheCard(bytes: ArrayBuffer): Promise<number> {

@@ -1,0 +1,193 @@
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import test from 'node:test';
+import {skip as noBrowser, withPage} from './browser.js';
+import {difference, played, sample} from './native.js';
+
+const core = '@babylonjs/core';
+const {NullEngine} = await import(`${core}/Engines/nullEngine.js`).catch(() => ({}));
+const options = {skip: NullEngine ? false : `${core} is not installed; try npm ci`};
+
+const kinds = {position: 'position', normal: 'normal', uv: 'uv'};  // as Babylon.js names attributes
+
+/** A scene whose frames take 16 ms, with the sample face. */
+async function load({rightHanded = true, ...more} = {}) {
+  const {Scene} = await import(`${core}/scene.js`), {FreeCamera} = await import(`${core}/Cameras/freeCamera.js`);
+  const {Vector3} = await import(`${core}/Maths/math.vector.js`);
+  const {SweepfaceMesh} = await import('../sweepface_babylon.js');
+  const scene = new Scene(new NullEngine());
+  scene.useRightHandedSystem = rightHanded;
+  scene.useConstantAnimationDeltaTime = true;
+  new FreeCamera('camera', new Vector3(0, 0, 60), scene);
+  return {scene, SweepfaceMesh, mesh: await SweepfaceMesh.load(readFileSync(sample), scene, more)};
+}
+
+const positionsOf = (mesh) => mesh.getVerticesData(kinds.position).slice();
+
+function assertShows(mesh) {
+  const native = played(sample, mesh.weights, 0);
+  assert.ok(difference(native.positions, mesh.getVerticesData(kinds.position)).most <= native.error);
+  assert.ok(difference(native.normals, mesh.getVerticesData(kinds.normal)).most <= 2e-3);
+}
+
+test('a mesh follows its weights when the scene is rendered', options, async () => {
+  const {scene, mesh} = await load();
+  assertShows(mesh);
+  const neutral = positionsOf(mesh), {maximum} = mesh.getBoundingInfo();
+  mesh.setWeights({jawOpen: 0.7, browInnerUp: 1});
+  assert.deepEqual(positionsOf(mesh), neutral);
+  scene.render();
+  assertShows(mesh);
+  assert.notDeepEqual(mesh.getBoundingInfo().minimum, maximum);
+  mesh.reset();
+  scene.render();
+  assert.deepEqual(positionsOf(mesh), neutral);
+});
+
+test('forces move it as the scene lets time pass', options, async () => {
+  const {scene, mesh} = await load();
+  const isAt = (seconds) => Math.abs(mesh.weights.jawOpen - (seconds / 0.16) ** 2) < 1e-9;
+  mesh.moveTo({jawOpen: 1}, {kind: 'newton', seconds: 0.16});
+  for (let k = 0; k < 5; ++k) scene.render();
+  assert.ok(isAt(0.08));
+  assertShows(mesh);
+  scene.animationsEnabled = false;
+  scene.render();
+  assert.ok(isAt(0.08));
+  scene.animationsEnabled = true;
+  scene.animationTimeScale = 3;
+  scene.render();
+  assert.ok(isAt(0.128));
+  mesh.advancesWithScene = false;
+  scene.render();
+  assert.ok(isAt(0.128));
+  mesh.push('browInnerUp', 1, 4);
+  assert.equal(mesh.advance(0.1), true);
+  assert.ok(mesh.weights.browInnerUp > 0.05);
+});
+
+test('a still face is not evaluated again', options, async () => {
+  const {scene, mesh} = await load();
+  let count = 0;
+  const {face} = mesh, evaluate = face.evaluate.bind(face);
+  face.evaluate = (...given) => { ++count; evaluate(...given); };
+  for (let k = 0; k < 3; ++k) scene.render();
+  assert.equal(count, 0);
+  mesh.moveTo({jawOpen: 1}, {kind: 'newton', seconds: 0.05});
+  for (let k = 0; k < 20; ++k) scene.render();
+  assert.ok(count >= 4 && count < 10, `${count} times`);
+});
+
+test('left-handed scenes see the mirror image, with triangles the other way around', options, async () => {
+  const {mesh: right} = await load(), {mesh: left} = await load({rightHanded: false});
+  const a = positionsOf(right), b = positionsOf(left);
+  assert.ok(a.every((value, k) => value === (k % 3 === 0 ? -b[k] : b[k])));
+  const ways = [right, left].map((mesh) => [...mesh.getIndices().slice(0, 3)]);
+  assert.deepEqual(ways[0], [ways[1][0], ways[1][2], ways[1][1]]);
+});
+
+test('each part of the face has a material', options, async () => {
+  const {mesh} = await load(), {face: {parts}} = mesh;
+  assert.deepEqual(mesh.material.subMaterials.map(({name}) => name), parts.map(({material}) => material));
+  assert.deepEqual(mesh.subMeshes.map(({indexStart, indexCount, materialIndex}) => [indexStart, indexCount, materialIndex]),
+                   parts.map(({start, count}, k) => [start, count, k]));
+  assert.equal(mesh.getVerticesData(kinds.uv).length, 2 * mesh.face.vertexCount);
+});
+
+test('clones move by themselves and share the material', options, async () => {
+  const {scene, mesh, SweepfaceMesh} = await load();
+  mesh.setWeights({jawOpen: 0.5});
+  mesh.position.set(1, 2, 3);
+  const twin = mesh.clone('twin');
+  assert.ok(twin instanceof SweepfaceMesh);
+  assert.deepEqual([twin.name, twin.weights.jawOpen, twin.position.y], ['twin', 0.5, 2]);
+  assert.equal(twin.material, mesh.material);
+  twin.setWeights({jawOpen: 1});
+  scene.render();
+  assert.equal(mesh.weights.jawOpen, 0.5);
+  assertShows(mesh);
+  assertShows(twin);
+  mesh.dispose();
+  twin.setWeights({jawOpen: 0.25});
+  scene.render();
+  assertShows(twin);
+});
+
+test('a mesh that is disposed of is forgotten', options, async () => {
+  const {scene, mesh} = await load();
+  mesh.dispose();
+  assert.throws(() => mesh.setWeights({jawOpen: 1}), /disposed of/);
+  scene.render();
+  mesh.update(1);
+  assert.equal(scene.meshes.length, 0);
+  const {scene: other} = await load();
+  other.dispose();
+});
+
+test('faces have regions and eyes', options, async () => {
+  const regions = [{name: 'chin', points: [[0, -9, 9]], fade: 7}], {scene, mesh} = await load({regions, eyes: true});
+  assert.deepEqual([mesh.regions, mesh.eyeCount], [['rest', 'chin'], 2]);
+  const before = positionsOf(mesh);
+  mesh.look({leftEye: {yaw: 0.3}});
+  scene.render();
+  assert.notDeepEqual(positionsOf(mesh), before);
+  mesh.setWeights({jawOpen: 1}, 'chin');
+  assert.deepEqual([mesh.weightsIn('chin').jawOpen, mesh.weightsIn('rest').jawOpen], [1, 0]);
+  const twin = mesh.clone();
+  assert.deepEqual([twin.weightsIn('chin').jawOpen, twin.weightsIn('rest').jawOpen], [1, 0]);
+  assert.deepEqual(twin.pose, mesh.pose);
+});
+
+test('what is no face is refused', options, async () => {
+  const {scene, SweepfaceMesh} = await load();
+  assert.throws(() => new SweepfaceMesh('face', scene, readFileSync(sample)), /await Sweepface.load/);
+  await assert.rejects(SweepfaceMesh.load(new Uint8Array([1, 2, 3]), scene), /check that it is a \.sweep file/);
+});
+
+const page = `<!doctype html><link rel="icon" href="data:,"><canvas id="view" width="400" height="400"></canvas>
+  <script type="importmap">{"imports": {"@babylonjs/core/": "./node_modules/@babylonjs/core/"}}</script>`;
+const files = {'babylon.html': page, 'sample.sweep': readFileSync(sample), 'none.sweep': (response) => response.writeHead(404).end()};
+
+test('it is drawn from outside, in scenes of both hands', {skip: options.skip || noBrowser, timeout: 300_000}, () =>
+  withPage('babylon.html', {files, viewport: {width: 500, height: 500}}, async (page, complaints) => {
+    await page.evaluate(async () => {
+      const names = ['Engines/engine', 'scene', 'Cameras/freeCamera', 'Lights/hemisphericLight', 'Maths/math.vector'];
+      const modules = await Promise.all(names.map((name) => import(`@babylonjs/core/${name}.js`)));
+      const {Engine, Scene, FreeCamera, HemisphericLight, Vector3} = Object.assign({}, ...modules);
+      const {SweepfaceMesh} = await import('./sweepface_babylon.js');
+      globalThis.draw = async (rightHanded, culls, weights) => {
+        const canvas = document.getElementById('view'), engine = new Engine(canvas, true, {preserveDrawingBuffer: true});
+        const scene = new Scene(engine);
+        scene.useRightHandedSystem = rightHanded;
+        new FreeCamera('camera', new Vector3(0, 0, 60), scene).setTarget(Vector3.Zero());
+        new HemisphericLight('light', new Vector3(0, 1, 0.5), scene);
+        const mesh = await SweepfaceMesh.load('sample.sweep', scene);
+        for (const material of mesh.material.subMaterials) material.backFaceCulling = culls;
+        mesh.setWeights(weights);
+        await scene.whenReadyAsync();
+        scene.render();
+        const drawn = await createImageBitmap(canvas), context = new OffscreenCanvas(400, 400).getContext('2d');
+        context.drawImage(drawn, 0, 0);
+        scene.dispose();
+        engine.dispose();
+        return [...context.getImageData(0, 0, 400, 400).data];
+      };
+    });
+    const draw = (...given) => page.evaluate((given) => globalThis.draw(...given), given);
+    const changed = (a, b) => a.filter((value, k) => Math.abs(value - b[k]) > 40).length / a.length;
+    const whole = await draw(false, false, {}), [red, green, blue] = whole;
+    const isSky = (k) => whole[k] === red && whole[k + 1] === green && whole[k + 2] === blue;
+    const skin = whole.filter((_, k) => k % 4 === 0 && !isSky(k)).length / (whole.length / 4);
+    assert.ok(skin > 0.1 && skin < 0.9, `the face fills ${skin} of the picture`);
+    assert.ok(changed(whole, await draw(false, true, {})) < 0.005);
+    const right = await draw(true, false, {});
+    assert.ok(changed(right, await draw(true, true, {})) < 0.005);
+    assert.ok(changed(whole, right) < 0.02);
+    assert.ok(changed(whole, await draw(false, false, {jawOpen: 1})) > 0.003);
+    const lost = page.evaluate(async () => {
+      const {SweepfaceMesh} = await import('./sweepface_babylon.js');
+      await SweepfaceMesh.load('none.sweep');
+    });
+    await assert.rejects(lost, /none\.sweep cannot be loaded: the server answers 404/);
+    assert.deepEqual(complaints.filter((text) => !text.includes('404')), []);
+  }));
