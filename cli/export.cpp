@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 
-#include "sweepface/evaluator.hpp"
+#include "sweepface/eval.hpp"
 #include "sweepface/io.hpp"
+#include "sweepface/lod_polygons.hpp"
 
-#include "budget_mesh.hpp"
+#include "budget_grid.hpp"
 #include "command.hpp"
 #include "file_names.hpp"
 #include "following.hpp"
@@ -20,7 +22,7 @@ namespace {
 struct ExportArguments {
   std::string face, output, weights;
   int lod = 0;
-  double edgeLength = 0, error = 0, vertices = 0;  // 0: not given
+  BudgetArguments budget;
   bool sourceOrder = false, quiet = false;
   FollowingArguments following;
   RigFileArguments rigFile;
@@ -38,31 +40,14 @@ void addOptions(CLI::App& app, ExportArguments& a) {
       "--source-order", a.sourceOrder,
       "Write the source's own vertices and polygons in their order (this is the default)");
   order->excludes(lod);
-  const auto addBudget = [&](const std::string& name, double& value, const std::string& type,
-                             const std::string& what) {
-    return app.add_option(name, value, what)
-        ->type_name(type)
-        ->check(positiveNumber())
-        ->excludes(lod)
-        ->excludes(order);
-  };
-  CLI::Option* vertices = addBudget("--vertices", a.vertices, "N",
-                                    "Write the best mesh with at most N vertices (.obj)");
-  CLI::Option* error =
-      addBudget("--error", a.error, "E",
-                "Write a mesh whose edges are no further from the surface than this (.obj)");
-  addBudget("--edge-length", a.edgeLength, "L",
-            "Write a mesh without longer edges along curves (.obj)")
-      ->excludes(vertices)
-      ->excludes(error);
-  error->excludes(vertices);
+  addBudget(app, a.budget, {lod, order});
   addFollowing(app, a.following);
   addRigFile(app, a.rigFile);
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n  sweepface export face.sweep -o smile.obj --weights smile=0.8,jawOpen=0.2\n"
       "  sweepface export face.sweep -o smooth.obj --lod 4\n"
-      "  sweepface export face.sweep -o far.obj --vertices 5000\n"
+      "  sweepface export face.sweep -o far.glb --vertices 5000\n"
       "  sweepface export face.sweep -o face.glb --quantize\n"
       "  sweepface export face.sweep -o face.usda\n"
       "  sweepface export face.sweep -o meshes/");
@@ -74,28 +59,22 @@ bool isOfFolder(const ExportArguments& a) {
   return !isOfKind(a.output, ".obj") && !isOfRig(a) && meansFolder(utf8Path(a.output));
 }
 
-Budget budgetOf(const ExportArguments& a) {
-  if (a.vertices > 0) return {Budget::Kind::vertices, a.vertices};
-  if (a.error > 0) return {Budget::Kind::error, a.error};
-  return {Budget::Kind::edgeLength, a.edgeLength};
-}
-
+/// The mesh that a budget asks for, as an .obj.
 Result<void> writeWithin(const ExportArguments& a, const Rig& rig, const Weights& weights) {
-  const auto mesh = meshWithin(rig, budgetOf(a), weights);
-  if (!mesh) return std::unexpected(mesh.error());
-  if (auto written = writeFile(utf8Path(a.output), mesh->obj); !written) return written;
+  const Result<Tessellation> grid = gridWithin(a.budget, rig, a.output);
+  if (!grid) return std::unexpected(grid.error());
+  const Polygons polygons = densityPolygons(rig, *grid);
+  const std::vector<Vec3> vectors = blend(rig, weights);
+  const std::string obj = formatObj({grid->positions(vectors), grid->normals(vectors), polygons});
+  if (auto written = writeFile(utf8Path(a.output), obj); !written) return written;
   if (!a.quiet)
-    fmt::print("{}: {} vertices, {} triangles\n", a.output, mesh->vertices, mesh->triangles);
-  if (mesh->cutMost > 0)
-    printWarning(fmt::format(
-        "{}: {} curves are cut as finely as can be, into {} for every edge of the "
-        "source, and may still be coarser than {} asks.",
-        a.output, mesh->cutMost, kMostLevel, a.error > 0 ? "--error" : "--edge-length"));
+    fmt::print("{}: {} vertices, {} triangles\n", a.output, grid->vertexCount(),
+               polygons.faceCount());
   return {};
 }
 
 Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& weights) {
-  if (budgetOf(a).value > 0) return writeWithin(a, rig, weights);
+  if (a.budget.isGiven()) return writeWithin(a, rig, weights);
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const MeshMaker meshes(rig, a.lod);
   if (auto written = writeFile(utf8Path(a.output), meshes.obj(weights)); !written) return written;
@@ -103,25 +82,40 @@ Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& w
   return {};
 }
 
-Result<std::string> formatRig(const ExportArguments& a, const Rig& rig, const Weights& weights) {
+Result<std::string> formatRig(const ExportArguments& a, const Rig& rig, const Weights& weights,
+                              const Tessellation* grid) {
   const bool shows = !a.weights.empty();
   if (isUsd(a.output)) {
     UsdOptions options = a.rigFile.usd(a.lod);
+    options.grid = grid;
     if (shows) options.weights = weights;
     return formatUsdFor(a.output, rig, options);
   }
   GlbOptions options = a.rigFile.glb(a.lod);
+  options.grid = grid;
   if (shows) options.weights = weights;
   return formatGlb(rig, options);
 }
 
 Result<void> writeRig(const ExportArguments& a, const Rig& rig, const Weights& weights) {
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
-  const Result<std::string> bytes = formatRig(a, rig, weights);
+  if (a.budget.isGiven() && isOfKind(a.output, ".glb") && !rig.scene.empty())
+    return fail(fmt::format(
+        "In a .glb {} goes back into its scene, whose vertices a budget cannot choose; use --lod, "
+        "name an .obj or .usda, or convert it with --bare.",
+        a.face));
+  std::optional<Tessellation> grid;
+  if (a.budget.isGiven()) {
+    Result<Tessellation> within = gridWithin(a.budget, rig, a.output);
+    if (!within) return std::unexpected(within.error());
+    grid = std::move(*within);
+  }
+  const Result<std::string> bytes = formatRig(a, rig, weights, grid ? &*grid : nullptr);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(utf8Path(a.output), *bytes); !written) return written;
   if (!a.quiet)
-    fmt::print("{}: {} targets, {} bytes\n", a.output, rig.targets.size(), bytes->size());
+    fmt::print("{}: {} targets, {}{} bytes\n", a.output, rig.targets.size(),
+               grid ? fmt::format("{} vertices, ", grid->vertexCount()) : "", bytes->size());
   return {};
 }
 
@@ -179,9 +173,9 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
 Result<void> checkKind(const ExportArguments& a) {
   const bool isRig = isOfRig(a), isFolder = isOfFolder(a);
   if (auto ok = checkRigFile(a.rigFile, a.output); !ok) return ok;
-  if ((isRig || isFolder) && budgetOf(a).value > 0)
+  if (isFolder && a.budget.isGiven())
     return fail(
-        "A budget of vertices, error or edge length is for .obj files; name the output so.");
+        "A budget of vertices, error or edge length is for one file; name an .obj, .glb or .usda.");
   if (isFolder && !a.weights.empty())
     return fail("A folder gets every target by itself; leave --weights out, or name an .obj file.");
   if ((isRig || isFolder) && a.weights.empty() &&

@@ -34,19 +34,6 @@ struct Face {
   std::size_t vertices() const { return static_cast<std::size_t>(evaluator.vertexCount()); }
 };
 
-std::optional<Budget> budgetFrom(const py::object& vertices, const py::object& edgeLength,
-                                 const py::object& error) {
-  std::optional<Budget> budget;
-  for (const auto& [kind, value] :
-       {std::pair(Budget::Kind::vertices, vertices),
-        std::pair(Budget::Kind::edgeLength, edgeLength), std::pair(Budget::Kind::error, error)}) {
-    if (value.is_none()) continue;
-    if (budget) throw Failure("Give one of vertices, edge_length and error.");
-    budget = Budget{kind, numberFrom(value, "A budget")};
-  }
-  return budget;
-}
-
 /// The mesh that cards draw, and the evaluator of its points.
 std::pair<RenderMesh, Evaluator> withMesh(const Rig& rig, const std::optional<Budget>& budget,
                                           const EvaluatorOptions& options) {

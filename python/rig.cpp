@@ -39,49 +39,68 @@ Clip fromItsBeginning(Clip clip) {
   return clip;
 }
 
-/// What is animated in a file of the rig: a clip of its targets, and its head.
-struct Played {
-  Clip clip;
-  HeadTrack head;
-
-  /// Sets what GlbOptions and UsdOptions have alike.
-  template <typename Options>
-  void setIn(Options& options, const Rig& rig, const Clip* given, bool turns,
-             const py::object& pivot) {
-    if (given) clip = fromItsBeginning(clipOfTargets(rig, *given)), options.clip = &clip;
-    if (turns) head = headTrackOf(rig, given, pivot), options.head = &head;
-    if (!turns && !pivot.is_none())
-      throw Failure("The model turns about the pivot with head only; leave the pivot out.");
-  }
+/// What Python gives for any file of a rig with its targets.
+struct RigFile {
+  Index level = 0;
+  py::object vertices, edgeLength, error;  // a budget
+  bool morphNormals = false;
+  py::object weights;
+  const Clip* clip = nullptr;
+  bool head = false;
+  py::object pivot;
 };
 
-void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
-             bool quantize, const py::object& weights, const Clip* clip, double keyTolerance,
-             bool head, const py::object& pivot) {
+/// What the options of such a file point to.
+class RigFileOptions {
+ public:
+  RigFileOptions(const Rig& rig, RigFile given) : rig_(rig), given_(std::move(given)) {
+    const auto budget = budgetFrom(given_.vertices, given_.edgeLength, given_.error);
+    if (budget && given_.level != 0) throw Failure("Give either a level or a budget.");
+    if (budget)
+      grid_.emplace(rig.surface, valueOf(densityFor(rig.surface, blend(rig, {}), *budget)));
+    if (!given_.head && !given_.pivot.is_none())
+      throw Failure("The model turns about the pivot with head only; leave the pivot out.");
+    if (given_.clip) clip_ = fromItsBeginning(clipOfTargets(rig, *given_.clip));
+    if (given_.head) head_ = headTrackOf(rig, given_.clip, given_.pivot);
+  }
+
+  /// Sets what GlbOptions and UsdOptions have alike. This must outlive them.
+  template <typename Options>
+  Options make() const {
+    Options options;
+    options.lod = given_.level, options.morphNormals = given_.morphNormals;
+    if (grid_) options.grid = &*grid_;
+    if (!given_.weights.is_none()) options.weights = weightsFrom(rig_, given_.weights);
+    if (given_.clip) options.clip = &clip_;
+    if (given_.head) options.head = &head_;
+    return options;
+  }
+
+ private:
+  const Rig& rig_;
+  RigFile given_;
+  std::optional<Tessellation> grid_;
+  Clip clip_;
+  HeadTrack head_;
+};
+
+void saveGlb(const Rig& rig, const std::filesystem::path& path, const RigFile& given, bool quantize,
+             double keyTolerance) {
   checkKind(path, ".glb");
-  GlbOptions options;
-  options.lod = level;
-  options.morphNormals = morphNormals, options.quantize = quantize;
-  if (!weights.is_none()) options.weights = weightsFrom(rig, weights);
-  options.keyTolerance = keyTolerance;
-  Played played;
-  played.setIn(options, rig, clip, head, pivot);
+  const RigFileOptions file(rig, given);
+  auto options = file.make<GlbOptions>();
+  options.quantize = quantize, options.keyTolerance = keyTolerance;
   released([&] { return valueOf(writeFile(path, valueOf(formatGlb(rig, options)))); });
 }
 
-void saveUsd(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
-             const py::object& weights, const Clip* clip, double timeCodesPerSecond, bool head,
-             const py::object& pivot, double metersPerUnit, bool zUp) {
+void saveUsd(const Rig& rig, const std::filesystem::path& path, const RigFile& given,
+             double timeCodesPerSecond, double metersPerUnit, bool zUp) {
   const bool isArchive = extensionOf(path) == ".usdz";
   if (!isArchive) checkKind(path, ".usda");
-  UsdOptions options;
-  options.lod = level;
-  options.morphNormals = morphNormals;
-  if (!weights.is_none()) options.weights = weightsFrom(rig, weights);
+  const RigFileOptions file(rig, given);
+  auto options = file.make<UsdOptions>();
   options.timeCodesPerSecond = timeCodesPerSecond;
   options.metersPerUnit = metersPerUnit, options.zUp = zUp;
-  Played played;
-  played.setIn(options, rig, clip, head, pivot);
   released([&] {
     return valueOf(writeFile(path, valueOf((isArchive ? formatUsdz : formatUsd)(rig, options))));
   });
@@ -185,24 +204,47 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
             valueOf(writeFile(path, encode(r)));
           },
           "path"_a, "Writes a .sweep file beside the path, then renames it.")
-      .def("save_glb", &saveGlb, "path"_a, py::kw_only(), "level"_a = 0, "morph_normals"_a = false,
-           "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr,
-           "key_tolerance"_a = 0, "head"_a = false, "pivot"_a = py::none(),
-           "Writes a GLB with the targets as morph targets, in the scene that came with the rig, "
-           "if one did. level 0: the source's vertices; N: every edge cut into N. morph_normals "
-           "writes "
-           "normals of the targets, too; quantize stores whole numbers (KHR_mesh_quantization); "
-           "weights are those at which the face is shown. A clip becomes "
-           "an animation, in as few keys as keep its weights within key_tolerance, if that is "
-           "given. With head, the whole model turns by the clip's angles of the head, about the "
-           "pivot [3] or else its middle.")
-      .def("save_usd", &saveUsd, "path"_a, py::kw_only(), "level"_a = 0, "morph_normals"_a = false,
-           "weights"_a = py::none(), "clip"_a = nullptr, "time_codes_per_second"_a = 24,
-           "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
-           "Writes a .usda, or a .usdz with the images of its materials, with the targets as blend "
-           "shapes of UsdSkel. A clip becomes a time sample for each of its frames. "
-           "meters_per_unit 0: 1 for a rig from a GLB, otherwise "
-           "what its units are, or 0.01. The rest as in save_glb.")
+      .def(
+          "save_glb",
+          [](const Rig& r, const std::filesystem::path& path, Index level,
+             const py::object& vertices, const py::object& edgeLength, const py::object& error,
+             bool morphNormals, bool quantize, const py::object& weights, const Clip* clip,
+             double keyTolerance, bool head, const py::object& pivot) {
+            saveGlb(r, path,
+                    {level, vertices, edgeLength, error, morphNormals, weights, clip, head, pivot},
+                    quantize, keyTolerance);
+          },
+          "path"_a, py::kw_only(), "level"_a = 0, "vertices"_a = py::none(),
+          "edge_length"_a = py::none(), "error"_a = py::none(), "morph_normals"_a = false,
+          "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr, "key_tolerance"_a = 0,
+          "head"_a = false, "pivot"_a = py::none(),
+          "Writes a GLB with the targets as morph targets, in the scene that came with the rig, if "
+          "one did. level 0: the source's vertices; N: every edge cut into N. Instead, if there is "
+          "no scene, a budget: at most so many vertices, no longer edges along curves, or no edge "
+          "further than error from the surface. morph_normals writes normals of the targets, too; "
+          "quantize stores whole numbers (KHR_mesh_quantization); weights are those at which the "
+          "face is shown. A clip becomes an animation, in as few keys as keep its weights within "
+          "key_tolerance, if that is given. With head, the whole model turns by the clip's angles "
+          "of the head, about the pivot [3] or else its middle.")
+      .def(
+          "save_usd",
+          [](const Rig& r, const std::filesystem::path& path, Index level,
+             const py::object& vertices, const py::object& edgeLength, const py::object& error,
+             bool morphNormals, const py::object& weights, const Clip* clip,
+             double timeCodesPerSecond, bool head, const py::object& pivot, double metersPerUnit,
+             bool zUp) {
+            saveUsd(r, path,
+                    {level, vertices, edgeLength, error, morphNormals, weights, clip, head, pivot},
+                    timeCodesPerSecond, metersPerUnit, zUp);
+          },
+          "path"_a, py::kw_only(), "level"_a = 0, "vertices"_a = py::none(),
+          "edge_length"_a = py::none(), "error"_a = py::none(), "morph_normals"_a = false,
+          "weights"_a = py::none(), "clip"_a = nullptr, "time_codes_per_second"_a = 24,
+          "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
+          "Writes a .usda, or a .usdz with the images of its materials, with the targets as blend "
+          "shapes of UsdSkel. A clip becomes a time sample for each of its frames. meters_per_unit "
+          "0: 1 for a rig from a GLB, otherwise what its units are, or 0.01. The rest is as in "
+          "save_glb.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
            "Writes an expression as an OBJ, in the source's order, with the surface's normals.")
       .def("packed", &packed, "tolerance"_a = 0, py::kw_only(), "texture_bits"_a = 0,

@@ -56,6 +56,19 @@ void checkKind(const std::filesystem::path& path, const char* extension) {
   throw Failure(path.string() + " must end in " + extension + "; choose another name.");
 }
 
+std::optional<Budget> budgetFrom(const py::object& vertices, const py::object& edgeLength,
+                                 const py::object& error) {
+  std::optional<Budget> budget;
+  for (const auto& [kind, value] :
+       {std::pair(Budget::Kind::vertices, vertices),
+        std::pair(Budget::Kind::edgeLength, edgeLength), std::pair(Budget::Kind::error, error)}) {
+    if (value.is_none()) continue;
+    if (budget) throw Failure("Give one of vertices, edge_length and error.");
+    budget = Budget{kind, numberFrom(value, "A budget")};
+  }
+  return budget;
+}
+
 std::vector<Vec3> pointsFrom(const Doubles& array, const char* what) {
   if (array.ndim() != 2 || array.shape(1) != 3)
     throw Failure(std::string(what) + " must be an array of three numbers a row, [N, 3].");

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "sweepface/eval.hpp"
 #include "sweepface/rig.hpp"
 
 namespace sweepface::python {
@@ -82,6 +83,10 @@ py::dict mappingFrom(const py::object& object, const char* what);
 void checkPatch(const Surface& surface, std::int64_t patch);
 /// Fails unless edges can be cut into so many; 0: the source's own vertices.
 void checkLevel(Index level);
+
+/// The one of these that is not None, if any.
+std::optional<Budget> budgetFrom(const py::object& vertices, const py::object& edgeLength,
+                                 const py::object& error);
 
 /// Fails if a file to be written has another extension.
 void checkKind(const std::filesystem::path& path, const char* extension);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/eval.hpp"
 #include "sweepface/head.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/motion.hpp"
@@ -40,7 +41,10 @@ inline constexpr double kHeadTolerance = 0.001;
 
 /// What formatGlb writes.
 struct GlbOptions {
-  Index lod = 0;              ///< 0: the source's vertices in their order; N: every edge cut into N
+  Index lod = 0;  ///< 0: the source's vertices in their order; N: every edge cut into N
+  /// Instead of a level: a tessellation of the rig with a density, whose triangles are written;
+  /// only for a rig without a scene.
+  const Tessellation* grid = nullptr;
   bool morphNormals = false;  ///< normals of the morph targets too
   bool quantize = false;      ///< KHR_mesh_quantization
   Weights weights{};          ///< at which the face is shown; empty: as its scene says, else all 0

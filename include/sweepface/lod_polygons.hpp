@@ -8,4 +8,7 @@ namespace sweepface {
 /// quads, and triangles where a side is collapsed. The rig must have the corners of its quads.
 Polygons lodPolygons(const Rig& rig, const Tessellation& grid);
 
+/// The triangles of a tessellation with a density, likewise.
+Polygons densityPolygons(const Rig& rig, const Tessellation& grid);
+
 }  // namespace sweepface

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/eval.hpp"
 #include "sweepface/head.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
@@ -11,9 +12,10 @@ namespace sweepface {
 
 /// What formatUsd writes.
 struct UsdOptions {
-  Index lod = 0;              ///< 0: the source's vertices and polygons; N: every edge cut into N
-  bool morphNormals = false;  ///< normals of the blend shapes too
-  Weights weights{};          ///< at which the face is shown where nothing is animated; empty: 0
+  Index lod = 0;  ///< 0: the source's vertices and polygons; N: every edge cut into N
+  const Tessellation* grid = nullptr;  ///< as in GlbOptions, also for a rig with a scene
+  bool morphNormals = false;           ///< normals of the blend shapes too
+  Weights weights{};  ///< at which the face is shown where nothing is animated; empty: 0
   /// An animation of the weights, or null: a time sample for each frame, with straight lines
   /// between them. Its names are the rig's targets.
   const Clip* clip = nullptr;

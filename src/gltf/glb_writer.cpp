@@ -43,6 +43,13 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
   if (!(options.keyTolerance >= 0 && options.keyTolerance < 1e9))
     return fail("The tolerance of keys is a number from 0.");
   if (options.lod < 0) return fail("A level of detail is 0 or more.");
+  if (options.grid) {
+    if (auto ok = checkGrid(rig, *options.grid, options.lod); !ok) return ok;
+    if (!rig.scene.empty())
+      return fail(
+          "The face goes back into its scene, which has vertices of its own; write it at a level "
+          "of detail, or leave the scene out.");
+  }
   for (const double weight : options.weights)
     if (!(std::abs(weight) <= std::numeric_limits<float>::max()))
       return fail("A weight is not a number that a glTF can hold.");
@@ -58,11 +65,9 @@ Result<void> checkLod(const Surface& surface, Index lod) {
 
 class GlbWriter {
  public:
-  GlbWriter(const Rig& rig, const GlbOptions& options)
-      : rig_(rig),
-        options_(options),
-        grid_(rig.surface, std::max(options.lod, 1)),
-        shapes_(rig, grid_) {}
+  /// Vertices of the rig's source are those of the grid.
+  GlbWriter(const Rig& rig, const GlbOptions& options, const Tessellation& grid)
+      : rig_(rig), options_(options), grid_(grid), shapes_(rig, grid) {}
 
   Result<std::string> write() {
     auto scene = rig_.scene.empty() ? makeScene() : sceneOf(rig_);
@@ -142,7 +147,7 @@ class GlbWriter {
 
   const Rig& rig_;
   const GlbOptions& options_;
-  Tessellation grid_;
+  const Tessellation& grid_;
   MorphShapes shapes_;
   BoundScene scene_;
 };
@@ -169,22 +174,27 @@ Result<std::string> formatGlb(const MeshRig& meshes) {
   if (auto ok = checkIndices(meshes); !ok)
     return fail("The meshes are at odds: " + ok.error().message + ".");
   const Rig rig = gltf::looseRig(meshes);
-  const GlbOptions options;
-  return gltf::GlbWriter(rig, options).write();
+  return gltf::GlbWriter(rig, {}, Tessellation(rig.surface, 1)).write();
 }
 
 Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   if (auto ok = gltf::check(rig, options); !ok) return std::unexpected(ok.error());
   if (auto ok = gltf::checkLod(rig.surface, options.lod); !ok) return std::unexpected(ok.error());
+  const Tessellation level(rig.surface, std::max(options.lod, 1));
+  const Tessellation& grid = options.grid ? *options.grid : level;
   const bool unknownFaces =
       rig.source.polygons.faceCount() == 0 || (options.lod > 0 && !knowsQuads(rig));
   // A scene's vertices are those of the source in their order.
   const bool unknownOrder = !rig.scene.empty() && !rig.source.ownOrder;
-  if (!unknownFaces && !unknownOrder) return gltf::GlbWriter(rig, options).write();
+  if (!options.grid && !unknownFaces && !unknownOrder)
+    return gltf::GlbWriter(rig, options, grid).write();
   Rig whole = rig;
   whole.scene.clear();
-  if (unknownFaces) takeFacesOfSurface(whole);
-  return gltf::GlbWriter(whole, options).write();
+  if (options.grid)
+    takeMeshOf(whole, grid);
+  else if (unknownFaces)
+    takeFacesOfSurface(whole);
+  return gltf::GlbWriter(whole, options, grid).write();
 }
 
 }  // namespace sweepface

@@ -32,11 +32,11 @@ std::vector<Index> facesOf(const Polygons& polygons) {
 
 }  // namespace
 
-MeshWriter::MeshWriter(const Rig& rig, const UsdOptions& options)
+MeshWriter::MeshWriter(const Rig& rig, const UsdOptions& options, const Tessellation& grid)
     : rig_(rig),
       options_(options),
-      grid_(rig.surface, std::max(options.lod, 1)),
-      shapes_(rig, grid_),
+      grid_(grid),
+      shapes_(rig, grid),
       polygons_(options.lod > 0 ? lodPolygons(rig, grid_) : rig.source.polygons),
       faces_(facesOf(polygons_)),
       materials_(polygons_, faces_) {

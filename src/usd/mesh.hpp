@@ -12,9 +12,9 @@ namespace sweepface::usd {
 /// Writes a rig's mesh with its blend shapes.
 class MeshWriter {
  public:
-  /// Both must outlive this. The rig knows its faces, and the corners of its quads for a finer
-  /// level.
-  MeshWriter(const Rig& rig, const UsdOptions& options);
+  /// All must outlive this. The rig knows its faces, and the corners of its quads for a finer
+  /// level; otherwise the vertices of its source are those of the grid.
+  MeshWriter(const Rig& rig, const UsdOptions& options, const Tessellation& grid);
 
   const Materials& materials() const { return materials_; }
   /// Adds the mesh `name` to the prim at `path`, bound to the skeleton at `skeleton` unless that is
@@ -33,7 +33,7 @@ class MeshWriter {
 
   const Rig& rig_;
   const UsdOptions& options_;
-  Tessellation grid_;
+  const Tessellation& grid_;
   MorphShapes shapes_;
   Polygons polygons_;
   std::vector<Index> places_;  // [points] in the order of MorphShape

@@ -55,6 +55,8 @@ Result<void> check(const Rig& rig, const UsdOptions& options) {
   if (!areSingle(options.weights))
     return fail("A weight is too large for the single precision of USD.");
   if (options.lod < 0) return fail("A level of detail is 0 or more.");
+  if (options.grid)
+    if (auto ok = checkGrid(rig, *options.grid, options.lod); !ok) return ok;
   if (!(options.timeCodesPerSecond > 0 && options.timeCodesPerSecond < 1e9))
     return fail("Time codes a second are a number above 0.");
   if (!(options.metersPerUnit >= 0 && options.metersPerUnit < 1e30))
@@ -90,10 +92,11 @@ std::string header(const Rig& rig, const UsdOptions& options) {
                             options.timeCodesPerSecond, options.zUp ? 'Z' : 'Y');
 }
 
-Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options, const Looks& looks) {
+Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options, const Tessellation& grid,
+                               const Looks& looks) {
   const std::string root = "/face", skeleton = "skeleton";
   const bool isMoved = moves(rig, options);
-  const MeshWriter mesh(rig, options);
+  const MeshWriter mesh(rig, options, grid);
   Text text;
   text.open(isMoved ? "SkelRoot" : "Xform", "face");
   if (isMoved) addSkeleton(text, root, skeleton, rig, options);
@@ -106,11 +109,17 @@ Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options, const 
 
 Result<std::string> layerOf(const Rig& rig, const UsdOptions& options, const Looks& looks) {
   if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
-  if (rig.source.polygons.faceCount() > 0 && (options.lod == 0 || knowsQuads(rig)))
-    return writeLayer(rig, options, looks);
+  const Tessellation level(rig.surface, std::max(options.lod, 1));
+  const Tessellation& grid = options.grid ? *options.grid : level;
+  const bool knowsFaces =
+      rig.source.polygons.faceCount() > 0 && (options.lod == 0 || knowsQuads(rig));
+  if (!options.grid && knowsFaces) return writeLayer(rig, options, grid, looks);
   Rig whole = rig;
-  takeFacesOfSurface(whole);
-  return writeLayer(whole, options, looks);
+  if (options.grid)
+    takeMeshOf(whole, grid);
+  else
+    takeFacesOfSurface(whole);
+  return writeLayer(whole, options, grid, looks);
 }
 
 }  // namespace

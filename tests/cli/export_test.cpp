@@ -106,7 +106,7 @@ TEST_F(Export, KeepsTheFaceThatItReads) {
 TEST_F(Export, RefusesFoldersThatCannotBeMeant) {
   convertRig();
   EXPECT_TRUE(fails("export face.sweep -o all --weights smile=1", "leave --weights out"));
-  EXPECT_TRUE(fails("export face.sweep -o all --vertices 9", "is for .obj files"));
+  EXPECT_TRUE(fails("export face.sweep -o all --vertices 9", "is for one file"));
   EXPECT_TRUE(fails("export face.sweep -o all --combine", "A folder holds all targets"));
   EXPECT_TRUE(fails("export face.sweep -o all --quantize", "is for .glb files"));
   EXPECT_TRUE(fails("export face.sweep -o face.sweep/all", "Cannot make the folder"));
@@ -212,7 +212,7 @@ TEST_F(Export, WritesAMeshWithinABudget) {
         << r.err;
   }
   EXPECT_NE(run("export face.sweep -o out.obj --vertices 2").code, 0);
-  EXPECT_NE(run("export face.sweep -o out.glb --vertices 500").code, 0);
+  EXPECT_NE(run("export face.sweep -o folder --vertices 500").code, 0);
   EXPECT_NE(run("export face.sweep -o out.obj --vertices 500 --lod 2").code, 0);
 }
 

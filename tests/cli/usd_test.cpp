@@ -41,6 +41,23 @@ TEST_F(ToolUsd, TakesTheOptionsOfExport) {
   EXPECT_EQ(layer("A.USD").value(".upAxis"), R"("Z")");
 }
 
+TEST_F(ToolUsd, KeepsToABudget) {
+  convertRig();
+  const Outcome r = run("export face.sweep -o far.usda --vertices 50");
+  ASSERT_EQ(r.code, 0) << r.err;
+  ASSERT_EQ(run("export face.sweep -o far.obj --vertices 50").code, 0);
+  const std::vector<Vec3> expected = mesh("far.obj").positions;
+  EXPECT_LE(expected.size(), 50u);
+  expectNear(points("far.usda"), expected, 1e-6);
+  EXPECT_EQ(r.out, fmt::format("far.usda: 2 targets, {} vertices, {} bytes\n", expected.size(),
+                               contents(folder / "far.usda").size()));
+  ASSERT_EQ(run("export face.sweep -o far.glb --vertices 50").code, 0);
+  const Written glb(contents(folder / "far.glb"));
+  std::vector<Vec3> found = glb.vectors(glb.attribute("POSITION"));
+  found.resize(expected.size());
+  expectNear(found, expected, 1e-6);
+}
+
 TEST_F(ToolUsd, HasFramesForTimeCodes) {
   convertRig();
   const std::string animate = "animate face.sweep --to smile=1 --law linear --seconds 2 -o m.usda";
@@ -61,7 +78,7 @@ TEST_F(ToolUsd, RefusesOptionsThatDoNotGoTogether) {
   convertRig();
   folder.file("out.usda", "old");
   EXPECT_TRUE(fails("export face.sweep -o out.usda --quantize", "is for .glb files"));
-  EXPECT_TRUE(fails("export face.sweep -o out.usda --vertices 9", "is for .obj files"));
+  EXPECT_TRUE(fails("export face.sweep -o out.usda --vertices 2", "vertices"));
   EXPECT_TRUE(fails("export face.sweep -o out.usda --combine", "A .usda holds all targets"));
   EXPECT_TRUE(fails("export face.sweep -o out.usdc", "must end in"));
   EXPECT_TRUE(fails("export face.sweep -o out.glb --z-up", "is for .usda and .usdz files"));

@@ -44,6 +44,47 @@ TEST_P(EveryFace, HoldsTheSurfaceInSinglePrecision) {
                2 * largest(neutral) / (1 << 24));
 }
 
+TEST_P(EveryFace, KeepsToABudget) {
+  const Rig rig = converted(GetParam().rig, 0.2);
+  const Budget budget{Budget::Kind::error, 0.05};
+  const Tessellation grid(rig.surface, densityFor(rig.surface, blend(rig, {}), budget).value());
+  GlbOptions options;
+  options.grid = &grid;
+  const Written glb = write(rig, options);
+  const std::vector<Vec3> expected = grid.positions(blend(rig, {}));
+  std::vector<Vec3> neutral = glb.vectors(glb.attribute("POSITION"));
+  std::size_t triangles = 0;
+  for (std::size_t part = 0; part < glb.json["meshes"][0]["primitives"].size(); ++part)
+    triangles += glb.indices(0, part).size() / 3;
+  EXPECT_EQ(triangles, grid.triangles().size());
+  neutral.resize(expected.size());  // the rest differ only in texture coordinates
+  expectSingle(neutral, expected);
+  for (std::size_t k = 0; k < rig.targets.size(); ++k) {
+    std::vector<Vec3> moved = glb.vectors(glb.morph(k));
+    moved.resize(expected.size());
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += expected[v];
+    expectNear(moved, grid.positions(blend(rig, oneTarget(rig, k))),
+               4 * largest(expected) / (1 << 24));
+  }
+}
+
+TEST(GlbWriter, RefusesABudgetWhereItCannotBeKept) {
+  const Rig rig = converted(withTargets(plane(3, 3)), 0.2), other = converted(smallFace());
+  const auto gridOf = [](const Rig& of) {
+    const Budget budget{Budget::Kind::edgeLength, 0.5};
+    return Tessellation(of.surface, densityFor(of.surface, blend(of, {}), budget).value());
+  };
+  const Tessellation mine = gridOf(rig), its = gridOf(other), level(rig.surface, 1);
+  GlbOptions options;
+  options.grid = &mine, options.lod = 2;
+  EXPECT_TRUE(failsWith(formatGlb(rig, options), {"ask for one of them"}));
+  options.lod = 0, options.grid = &level;
+  EXPECT_TRUE(failsWith(formatGlb(rig, options), {"not one of the face with a density"}));
+  options.grid = &its;
+  EXPECT_TRUE(failsWith(formatGlb(rig, options), {"not one of the face with a density"}));
+  EXPECT_TRUE(failsWith(formatGlb(other, options), {"goes back into its scene"}));
+}
+
 TEST(GlbWriter, RefusesWhatDoesNotBelongTogether) {
   MeshRig meshes = withTargets(plane(3, 3));
   meshes.targets[0].positions.pop_back();

@@ -77,6 +77,19 @@ class Files(FaceTest):
             self.rig.save_glb(self.path("face.glb"), weights={"jawOpenn": 0.5})
 
 
+    def test_keep_to_budgets_in_files(self):
+        for save, name in ((self.rig.save_glb, "far.glb"), (self.rig.save_usd, "far.usda")):
+            save(self.path(name), vertices=3000)
+            size = os.path.getsize(self.path(name))
+            save(self.path(name), error=0.5)
+            self.assertLess(os.path.getsize(self.path(name)), size)
+            with self.refuses("either a level or a budget"):
+                save(self.path(name), level=2, vertices=3000)
+            with self.refuses("one of vertices, edge_length and error"):
+                save(self.path(name), edge_length=1, vertices=3000)
+            with self.refuses("vertices"):
+                save(self.path(name), vertices=10)
+
     def test_become_usds_with_clips(self):
         clip = sweepface.Clip(["JawOpen", "tail"], [7, 7.5, 8], [[0, 0], [1, 0], [0, 0]])
         path = self.path("face.usda")

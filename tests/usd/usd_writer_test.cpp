@@ -95,6 +95,28 @@ TEST(UsdWriter, CutsEdges) {
              fine.positions(blend(rig, oneTarget(rig, 0))), 1e-5);
 }
 
+TEST(UsdWriter, KeepsToABudget) {
+  Rig rig = grid();
+  rig.source.loose = {{9, 9, 9}}, rig.source.gridVertex.push_back(-1);
+  rig.targets[0].looseDifference = {{1, 0, 0}};
+  const Density density =
+      densityFor(rig.surface, blend(rig, {}), {Budget::Kind::vertices, 20}).value();
+  const Tessellation few(rig.surface, density);
+  UsdOptions options;
+  options.grid = &few;
+  const Layer layer = layerOf(rig, options);
+  expectSingle(pointsOf(layer), few.positions(blend(rig, {})));
+  EXPECT_EQ(layer.numbers(kMesh + ".int[] faceVertexCounts"),
+            std::vector<double>(few.triangles().size(), 3));
+  expectNear(sum(pointsOf(layer), added(layer, "smile")),
+             few.positions(blend(rig, oneTarget(rig, 0))), 1e-5);
+  options.lod = 2;
+  EXPECT_TRUE(failsWith(formatUsd(rig, options), {"ask for one of them"}));
+  const Tessellation level(rig.surface, 2);
+  options.lod = 0, options.grid = &level;
+  EXPECT_TRUE(failsWith(formatUsd(rig, options), {"not one of the face with a density"}));
+}
+
 TEST(UsdWriter, KeepsAShapeThatMovesNothing) {
   Rig rig = grid();
   rig.targets[0].difference.assign(rig.targets[0].difference.size(), {});

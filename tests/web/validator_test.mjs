@@ -20,6 +20,7 @@ const ways = {
   'refined': ['export', '--lod', '2'],
   'with morph normals': ['export', '--morph-normals'],
   'quantized': ['export', '--quantize'],
+  'with few vertices': ['export', '--vertices', '3000', '--morph-normals', '--quantize'],
   'refined, with morph normals, quantized': ['export', '--lod', '3', '--morph-normals', '--quantize'],
   'moving by Newton\'s law': ['animate', ...moving, '--law', 'newton'],
   'braking': ['animate', ...moving, '--law', 'brake'],

@@ -1,12 +1,9 @@
-#include "budget_mesh.hpp"
-
 #include <map>
 
-#include "sweepface/evaluator.hpp"
-#include "sweepface/io.hpp"
+#include "sweepface/lod_polygons.hpp"
 #include "sweepface/render_mesh.hpp"
 
-namespace sweepface::cli {
+namespace sweepface {
 namespace {
 
 /// What an OBJ records about a face.
@@ -55,9 +52,9 @@ RenderMesh renderByKind(const Rig& rig, const FaceKinds& kinds, const Tessellati
   return renderDensity(painted, grid);
 }
 
-/// The triangles of a budgeted level of detail with the materials, groups and texture coordinates
-/// of the source.
-Polygons polygonsOf(const Rig& rig, const Tessellation& grid) {
+}  // namespace
+
+Polygons densityPolygons(const Rig& rig, const Tessellation& grid) {
   const Polygons& source = rig.source.polygons;
   const FaceKinds kinds(source);
   const RenderMesh mesh = renderByKind(rig, kinds, grid);
@@ -82,28 +79,4 @@ Polygons polygonsOf(const Rig& rig, const Tessellation& grid) {
   return result;
 }
 
-Index cutMost(const Wireframe& wireframe, const Density& density) {
-  Index count = 0;
-  for (std::size_t a = 0; a < wireframe.arcs.size(); ++a)
-    count +=
-        !wireframe.arcs[a].collapsed && density.arcs[a] >= kMostLevel * wireframe.arcs[a].edges;
-  return count;
-}
-
-}  // namespace
-
-Result<BudgetMesh> meshWithin(const Rig& rig, const Budget& budget,
-                              std::span<const double> weights) {
-  auto density = densityFor(rig.surface, blend(rig, {}), budget);
-  if (!density) return std::unexpected(density.error());
-  const bool isBound = budget.kind != Budget::Kind::vertices;
-  const Index most = isBound ? cutMost(rig.surface.wireframe(), *density) : 0;
-  const Tessellation grid(rig.surface, std::move(*density));
-  const Polygons polygons = polygonsOf(rig, grid);
-  const std::vector<Vec3> vectors = blend(rig, weights);
-  const std::vector<Vec3> positions = grid.positions(vectors), normals = grid.normals(vectors);
-  return BudgetMesh{formatObj({positions, normals, polygons}), grid.vertexCount(),
-                    polygons.faceCount(), most};
-}
-
-}  // namespace sweepface::cli
+}  // namespace sweepface
