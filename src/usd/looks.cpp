@@ -29,9 +29,9 @@ double shareOf(const Json& object, std::string_view key, double absent) {
   return std::clamp(numberOf(object, key, absent), 0.0, 1.0);
 }
 
-/// Member by member; empty where there is none.
+const Json none;
+
 const Json& memberOf(const Json& object, std::string_view key) {
-  static const Json none;
   const Json* const found = gltf::find(object, key);
   return found ? *found : none;
 }
@@ -52,8 +52,8 @@ Vec3 colourOf(const Json& object, std::string_view key, const Vec3& absent) {
 
 class SceneLooks {
  public:
-  explicit SceneLooks(const gltf::Document& document)
-      : document_(document), images_(document.list("images").size()) {}
+  SceneLooks(const gltf::Document& document, bool withImages)
+      : document_(document), withImages_(withImages), images_(document.list("images").size()) {}
 
   /// The looks of materials with these names.
   Looks read(const std::vector<std::string>& wanted) {
@@ -77,30 +77,42 @@ class SceneLooks {
     look.colour = colourOf(pbr, "baseColorFactor", {1, 1, 1});
     if (factors.is_array() && factors.size() == 4 && factors[3].is_number())
       look.opacity = std::clamp(factors[3].get<double>(), 0.0, 1.0);
-    look.isTransparent = mode == "BLEND" || mode == "MASK";
     if (mode == "MASK") look.opacityThreshold = shareOf(material, "alphaCutoff", 0.5);
+    look.isTransparent = mode == "BLEND" || look.opacityThreshold > 0;
     look.metallic = shareOf(pbr, "metallicFactor", 1);
     look.roughness = shareOf(pbr, "roughnessFactor", 1);
     look.emission = colourOf(material, "emissiveFactor", {});
     look.colourMap = mapOf(base, base);
     look.roughnessMap = mapOf(memberOf(pbr, "metallicRoughnessTexture"), base);
     look.normalMap = mapOf(memberOf(material, "normalTexture"), base);
+    look.normalMap.strength =
+        std::clamp(numberOf(memberOf(material, "normalTexture"), "scale", 1), -1e6, 1e6);
     look.occlusionMap = mapOf(memberOf(material, "occlusionTexture"), base);
+    look.occlusionMap.strength = shareOf(memberOf(material, "occlusionTexture"), "strength", 1);
     look.emissionMap = mapOf(memberOf(material, "emissiveTexture"), base);
+    // Factors of maps are mostly 1: alone they would make metal of skin, and let it glow.
+    if (gltf::find(pbr, "metallicRoughnessTexture") && look.roughnessMap.image < 0)
+      look.metallic = 0;
+    if (gltf::find(material, "emissiveTexture") && look.emissionMap.image < 0) look.emission = {};
     return look;
   }
 
-  /// The rig's texture coordinates are those of the base colour.
+  static const Json& transformOf(const Json& map) {
+    return memberOf(memberOf(map, "extensions"), "KHR_texture_transform");
+  }
+
+  static bool areOfTheFirstSet(const Json& map) {
+    return numberOf(transformOf(map), "texCoord", numberOf(map, "texCoord", 0)) == 0;
+  }
+
+  /// The rig's texture coordinates are those of the base colour, or else the first set.
   static bool areOfTheRig(const Json& map, const Json& base) {
-    const auto transform = [](const Json& of) -> const Json& {
-      return memberOf(memberOf(of, "extensions"), "KHR_texture_transform");
-    };
-    const double set = numberOf(transform(map), "texCoord", numberOf(map, "texCoord", 0));
-    return set == 0 && transform(map) == transform(base);
+    return areOfTheFirstSet(map) &&
+           transformOf(map) == (areOfTheFirstSet(base) ? transformOf(base) : none);
   }
 
   Map mapOf(const Json& map, const Json& base) {
-    if (!map.is_object() || !areOfTheRig(map, base)) return {};
+    if (!withImages_ || !map.is_object() || !areOfTheRig(map, base)) return {};
     const Json& textures = document_.list("textures");
     const auto texture = gltf::findIndex(map, "index", textures.size());
     if (!texture) return {};
@@ -108,7 +120,7 @@ class SceneLooks {
     if (!source) return {};
     const Json& samplers = document_.list("samplers");
     const auto sampler = gltf::findIndex(textures[*texture], "sampler", samplers.size());
-    const Json& wraps = sampler ? samplers[*sampler] : memberOf(map, "");
+    const Json& wraps = sampler ? samplers[*sampler] : none;
     return {imageOf(*source), {wrapOf(wraps, "wrapS"), wrapOf(wraps, "wrapT")}};
   }
 
@@ -135,6 +147,7 @@ class SceneLooks {
   }
 
   const gltf::Document& document_;
+  bool withImages_;
   std::vector<std::optional<Index>> images_;  // of the scene: where each is among those used
   PrimNames names_;
   Looks looks_;
@@ -142,11 +155,13 @@ class SceneLooks {
 
 }  // namespace
 
-Result<Looks> looksOf(const Rig& rig) {
+Result<Looks> looksOf(const Rig& rig, bool withImages) {
   if (rig.scene.empty()) return Looks{};
   const auto document = gltf::parseScene(rig.scene);
   if (!document) return std::unexpected(document.error());
-  return SceneLooks(*document).read(rig.source.polygons.materials);
+  const Polygons& polygons = rig.source.polygons;
+  return SceneLooks(*document, withImages && !polygons.cornerTexcoords.empty())
+      .read(polygons.materials);
 }
 
 }  // namespace sweepface::usd

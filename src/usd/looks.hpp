@@ -20,6 +20,7 @@ struct Image {
 struct Map {
   Index image = -1;  ///< or -1: none
   std::array<std::string_view, 2> wrap{"repeat", "repeat"};
+  double strength = 1;  ///< of normals and occlusion: 0 is as without a map
 };
 
 /// How a material looks, as UsdPreviewSurface has it. Numbers are factors of their maps.
@@ -37,8 +38,8 @@ struct Looks {
   std::vector<Image> images;
 };
 
-/// Those in the scene that came with a rig. Maps are left out if their images are neither PNG nor
-/// JPEG, as USD asks, or if they have other texture coordinates than the rig.
-Result<Looks> looksOf(const Rig& rig);
+/// Those in the scene that came with a rig. Maps are left out without images, if these are neither
+/// PNG nor JPEG, as USD asks, or if they have other texture coordinates than the rig.
+Result<Looks> looksOf(const Rig& rig, bool withImages);
 
 }  // namespace sweepface::usd

@@ -47,11 +47,16 @@ class Shaders {
           {"emission", look_.emissionMap, {e.x, e.y, e.z, 1}, {}, true}, "rgb");
     const Reader rough{"rough", look_.roughnessMap, {1, look_.roughness, look_.metallic, 1}};
     input("float inputs:metallic", number(look_.metallic), rough, "b");
-    if (has(look_.normalMap))
+    if (has(look_.normalMap)) {
+      const double s = look_.normalMap.strength;
       input("normal3f inputs:normal", "",
-            {"normal", look_.normalMap, {2, 2, 2, 1}, {-1, -1, -1, 0}}, "rgb");
-    if (has(look_.occlusionMap))
-      input("float inputs:occlusion", "", {"occlusion", look_.occlusionMap}, "r");
+            {"normal", look_.normalMap, {2 * s, 2 * s, 2, 1}, {-s, -s, -1, 0}}, "rgb");
+    }
+    if (has(look_.occlusionMap)) {
+      const double s = look_.occlusionMap.strength;
+      input("float inputs:occlusion", "",
+            {"occlusion", look_.occlusionMap, {s, s, s, 1}, {1 - s, 1 - s, 1 - s, 0}}, "r");
+    }
     if (look_.isTransparent) {
       input("float inputs:opacity", number(opacity), colour, "a");
       if (look_.opacityThreshold > 0)
@@ -62,7 +67,7 @@ class Shaders {
     text_.close();
   }
 
-  bool has(const Map& map) const { return map.image >= 0 && !images_.empty(); }
+  static bool has(const Map& map) { return map.image >= 0; }
 
   void input(const std::string& name, const std::string& value, const Reader& reader,
              std::string_view channel) {

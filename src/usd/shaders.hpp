@@ -9,7 +9,7 @@
 namespace sweepface::usd {
 
 /// Adds the shaders of a material to its prim at `path`: the surface `shader`, and what reads its
-/// maps if there are images.
+/// maps.
 void addShaders(Text& text, const std::string& path, const Look& look,
                 const std::vector<Image>& images);
 

@@ -126,14 +126,13 @@ Result<std::string> layerOf(const Rig& rig, const UsdOptions& options, const Loo
 }  // namespace usd
 
 Result<std::string> formatUsd(const Rig& rig, const UsdOptions& options) {
-  auto looks = usd::looksOf(rig);
+  const auto looks = usd::looksOf(rig, false);
   if (!looks) return std::unexpected(looks.error());
-  looks->images.clear();
   return usd::layerOf(rig, options, *looks);
 }
 
 Result<std::string> formatUsdz(const Rig& rig, const UsdOptions& options) {
-  const auto looks = usd::looksOf(rig);
+  const auto looks = usd::looksOf(rig, true);
   if (!looks) return std::unexpected(looks.error());
   const auto layer = usd::layerOf(rig, options, *looks);
   if (!layer) return layer;

@@ -24,8 +24,8 @@ Glb textured(const std::vector<std::string>& images) {
 
 Json& material(Glb& glb) { return glb.json["materials"][0]; }
 
-usd::Look lookOf(const Glb& glb) {
-  const auto looks = usd::looksOf(converted(glb));
+usd::Look lookOf(const Glb& glb, bool withImages = true) {
+  const auto looks = usd::looksOf(converted(glb), withImages);
   if (looks && looks->byName.contains("skin")) return looks->byName.at("skin");
   ADD_FAILURE() << "no look";
   return {};
@@ -50,7 +50,7 @@ TEST(Looks, AreThoseOfTheMaterial) {
 }
 
 TEST(Looks, OfAFaceWithoutASceneAreUnknown) {
-  const auto looks = usd::looksOf(converted(withTargets(plane(4, 4), 1)));
+  const auto looks = usd::looksOf(converted(withTargets(plane(4, 4), 1)), true);
   ASSERT_TRUE(looks);
   EXPECT_TRUE(looks->byName.empty());
 }
@@ -63,7 +63,7 @@ TEST(Looks, HaveTheImagesThatTheyUseOnce) {
                                            {"metallicRoughnessTexture", texture(2)}};
   material(glb)["normalTexture"] = texture(1);
   material(glb)["occlusionTexture"] = texture(3);
-  const auto looks = usd::looksOf(converted(glb));
+  const auto looks = usd::looksOf(converted(glb), true);
   ASSERT_TRUE(looks);
   ASSERT_EQ(looks->images.size(), 2u);
   EXPECT_EQ(looks->images[0].file, "textures/my_skin.png");
@@ -92,11 +92,59 @@ TEST(Looks, LeaveOutMapsWithOtherTextureCoordinates) {
   EXPECT_EQ(look.occlusionMap.image, -1);
 }
 
+// A base colour of the second set leaves the rig the first as it is.
+TEST(Looks, HaveNoMapsThatAreMovedAlone) {
+  Glb glb = textured({kPng});
+  const Json moved = {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}};
+  material(glb)["pbrMetallicRoughness"]["baseColorTexture"] = {
+      {"index", 0}, {"texCoord", 1}, {"extensions", moved}};
+  material(glb)["normalTexture"] = {{"index", 0}, {"extensions", moved}};
+  material(glb)["occlusionTexture"] = {{"index", 0}};
+  const usd::Look look = lookOf(glb);
+  EXPECT_EQ(look.colourMap.image, -1);
+  EXPECT_EQ(look.normalMap.image, -1);
+  EXPECT_EQ(look.occlusionMap.image, 0);
+}
+
+TEST(Looks, AreNeitherMetalNorGlowIfTheirMapsAreLeftOut) {
+  Glb glb = textured({kPng});
+  material(glb)["pbrMetallicRoughness"] = {{"metallicRoughnessTexture", {{"index", 0}}}};
+  material(glb)["emissiveFactor"] = {1, 1, 1};
+  material(glb)["emissiveTexture"] = {{"index", 0}};
+  const usd::Look whole = lookOf(glb), plain = lookOf(glb, false);
+  EXPECT_EQ(whole.metallic, 1);
+  EXPECT_EQ(whole.emission, (Vec3{1, 1, 1}));
+  EXPECT_EQ(plain.metallic, 0);
+  EXPECT_EQ(plain.emission, Vec3{});
+  EXPECT_EQ(plain.emissionMap.image, -1);
+}
+
+TEST(Looks, HaveNoMapsWithoutTextureCoordinates) {
+  Glb glb = textured({kPng});
+  material(glb)["normalTexture"] = {{"index", 0}};
+  Rig rig = converted(glb);
+  const auto imagesOf = [&] { return usd::looksOf(rig, true).value().images.size(); };
+  EXPECT_EQ(imagesOf(), 1u);
+  rig.source.polygons.texcoords.clear();
+  rig.source.polygons.cornerTexcoords.clear();
+  EXPECT_EQ(imagesOf(), 0u);
+}
+
+TEST(Looks, WithoutACutoffAreOpaque) {
+  Glb glb = smallFace();
+  material(glb)["alphaMode"] = "MASK";
+  EXPECT_TRUE(lookOf(glb).isTransparent);
+  material(glb)["alphaCutoff"] = 0;
+  EXPECT_FALSE(lookOf(glb).isTransparent);
+}
+
 TEST(Looks, AreWrittenAsShaders) {
   Glb glb = textured({kPng});
   material(glb)["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0.5, 0.25, 0.75}},
                                            {"baseColorTexture", {{"index", 0}}},
                                            {"metallicRoughnessTexture", {{"index", 0}}}};
+  material(glb)["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+  material(glb)["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
   material(glb)["alphaMode"] = "MASK";
   const Rig rig = converted(glb);
   const Layer plain(formatUsd(rig, {}).value());
@@ -119,6 +167,10 @@ TEST(Looks, AreWrittenAsShaders) {
   EXPECT_EQ(layer.value(skin + "colour.float4 inputs:scale"), "(1, 0.5, 0.25, 0.75)");
   EXPECT_EQ(layer.value(skin + "colour.token inputs:sourceColorSpace"), R"("sRGB")");
   EXPECT_EQ(layer.value(skin + "rough.token inputs:sourceColorSpace"), R"("raw")");
+  EXPECT_EQ(layer.value(skin + "normal.float4 inputs:scale"), "(1, 1, 2, 1)");
+  EXPECT_EQ(layer.value(skin + "normal.float4 inputs:bias"), "(-0.5, -0.5, -1, 0)");
+  EXPECT_EQ(layer.value(skin + "occlusion.float4 inputs:scale"), "(0.25, 0.25, 0.25, 1)");
+  EXPECT_EQ(layer.value(skin + "occlusion.float4 inputs:bias"), "(0.75, 0.75, 0.75, 0)");
 }
 
 }  // namespace
