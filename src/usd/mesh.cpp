@@ -133,7 +133,7 @@ Result<void> MeshWriter::addBlendShapes(Text& text, const std::string& path,
       sound = false;
   });
   if (!sound) return beyondFloats();
-  for (const Text& shape : shapes) text.append(shape);
+  for (Text& shape : shapes) text.append(std::move(shape));
   return {};
 }
 

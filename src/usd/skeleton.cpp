@@ -16,12 +16,6 @@ std::string matrixAt(const Vec3& origin) {
 /// USD has the real part first.
 std::string rotation(const Quaternion& q) { return tuple(std::array{q[3], q[0], q[1], q[2]}); }
 
-/// Times are whole numbers of time codes where they are meant to be, in spite of rounding.
-double timeCode(double seconds, const UsdOptions& options) {
-  const double code = seconds * options.timeCodesPerSecond, whole = std::round(code);
-  return std::abs(code - whole) < 1e-6 ? whole : code;
-}
-
 void addWeights(Text& text, const Rig& rig, const UsdOptions& options) {
   std::vector<std::string> names;
   for (const Target& target : rig.targets) names.push_back(target.name);
@@ -32,17 +26,18 @@ void addWeights(Text& text, const Rig& rig, const UsdOptions& options) {
   if (!options.clip) return;
   text.openSamples("float[] blendShapeWeights");
   const Clip& clip = *options.clip;
-  for (std::size_t frame = 0; frame < clip.times.size(); ++frame)
-    text.addSample(fmt::format("{}", timeCode(clip.times[frame], options)),
+  const std::vector<double> codes = timeCodes(clip.times, options);
+  for (std::size_t frame = 0; frame < codes.size(); ++frame)
+    text.addSample(fmt::format("{}", codes[frame]),
                    list(std::span(clip.weights).subspan(frame * names.size(), names.size())));
   text.close();
 }
 
 void addRotations(Text& text, const HeadTrack& head, const UsdOptions& options) {
   text.openSamples("quatf[] rotations");
-  for (std::size_t k = 0; k < head.times.size(); ++k)
-    text.addSample(fmt::format("{}", timeCode(head.times[k], options)),
-                   fmt::format("[{}]", rotation(head.rotations[k])));
+  const std::vector<double> codes = timeCodes(head.times, options);
+  for (std::size_t k = 0; k < codes.size(); ++k)
+    text.addSample(fmt::format("{}", codes[k]), fmt::format("[{}]", rotation(head.rotations[k])));
   text.close();
 }
 
@@ -52,12 +47,15 @@ bool moves(const Rig& rig, const UsdOptions& options) {
   return !rig.targets.empty() || options.head;
 }
 
-std::optional<TimeCodes> timeCodes(const UsdOptions& options) {
-  const std::vector<double>* const times = options.clip   ? &options.clip->times
-                                           : options.head ? &options.head->times
-                                                          : nullptr;
-  if (!times) return std::nullopt;
-  return TimeCodes{timeCode(times->front(), options), timeCode(times->back(), options)};
+/// They are whole numbers where they are meant to be, in spite of rounding.
+std::vector<double> timeCodes(std::span<const double> times, const UsdOptions& options) {
+  std::vector<double> codes;
+  codes.reserve(times.size());
+  for (const double time : times) {
+    const double code = time * options.timeCodesPerSecond, whole = std::round(code);
+    codes.push_back(std::abs(code - whole) < 1e-6 ? whole : code);
+  }
+  return codes;
 }
 
 void addSkeleton(Text& text, const std::string& path, const std::string& name, const Rig& rig,

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <optional>
+#include <span>
+#include <vector>
 
 #include "sweepface/usd.hpp"
 
@@ -11,11 +12,8 @@ namespace sweepface::usd {
 /// Whether there is anything to move: targets, or a head that turns.
 bool moves(const Rig& rig, const UsdOptions& options);
 
-/// When an animation begins and ends, in time codes.
-struct TimeCodes {
-  double first = 0, last = 0;
-};
-std::optional<TimeCodes> timeCodes(const UsdOptions& options);
+/// The time codes of an animation's frames.
+std::vector<double> timeCodes(std::span<const double> times, const UsdOptions& options);
 
 /// The skeleton `name` below the prim at `path`: a joint that holds the whole head, and the
 /// animation of that and of the weights.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <iterator>
+#include <utility>
 
 #include "usd/values.hpp"
 
@@ -39,9 +40,9 @@ void Text::addSample(std::string_view time, std::string_view value) {
   fmt::format_to(std::back_inserter(text_), "{}{}: {},\n", indent(), time, value);
 }
 
-void Text::append(const Text& prims) {
+void Text::append(Text&& prims) {
   separate();
-  text_ += prims.text_;
+  text_ += std::exchange(prims.text_, {});  // large: there is no room for all of it twice
 }
 
 /// Adds an empty line before a prim that is not the first thing in another.

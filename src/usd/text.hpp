@@ -24,8 +24,8 @@ class Text {
   /// A property with other values over time; add() them, then close().
   void openSamples(std::string_view property);
   void addSample(std::string_view time, std::string_view value);
-  /// Prims of the same depth.
-  void append(const Text& prims);
+  /// Prims of the same depth, which are given up.
+  void append(Text&& prims);
 
   int depth() const { return depth_; }
   std::string take() { return std::move(text_); }

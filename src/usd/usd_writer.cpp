@@ -19,7 +19,15 @@ bool increase(const std::vector<double>& times) {
   return std::ranges::adjacent_find(times, std::greater_equal()) == times.end();
 }
 
-Result<void> check(const Clip& clip, std::size_t targets) {
+/// Several frames of one time code would be one time sample.
+Result<void> checkTimeCodes(const std::vector<double>& times, const UsdOptions& options) {
+  if (increase(timeCodes(times, options))) return {};
+  return fail(
+      "Frames are less than a millionth of a time code apart; make the motion longer, or ask for "
+      "more time codes a second.");
+}
+
+Result<void> check(const Clip& clip, std::size_t targets, const UsdOptions& options) {
   if (targets == 0)
     return fail(
         "The face has no targets to animate; convert it with the meshes of its expressions.");
@@ -33,16 +41,16 @@ Result<void> check(const Clip& clip, std::size_t targets) {
     return fail("The times of the clip do not increase, or are beyond 300 years.");
   if (!areSingle(clip.weights))
     return fail("A weight of the clip is too large for the single precision of USD.");
-  return {};
+  return checkTimeCodes(clip.times, options);
 }
 
-Result<void> check(const HeadTrack& head) {
+Result<void> check(const HeadTrack& head, const UsdOptions& options) {
   if (head.rotations.empty() || head.rotations.size() != head.times.size() ||
       !std::ranges::all_of(head.times, isPlausibleTime) || !increase(head.times) ||
       !areSingle(std::array{head.pivot}) ||
       !std::ranges::all_of(head.rotations, [](auto& q) { return areSingle(q); }))
     return fail("The head's rotation needs one for each of its increasing times.");
-  return {};
+  return checkTimeCodes(head.times, options);
 }
 
 Result<void> check(const Rig& rig, const UsdOptions& options) {
@@ -58,12 +66,12 @@ Result<void> check(const Rig& rig, const UsdOptions& options) {
   if (options.grid)
     if (auto ok = checkGrid(rig, *options.grid, options.lod); !ok) return ok;
   if (!(options.timeCodesPerSecond > 0 && options.timeCodesPerSecond < 1e9))
-    return fail("Time codes a second are a number above 0.");
+    return fail("Time codes a second are a number above 0 and below 1,000,000,000.");
   if (!(options.metersPerUnit >= 0 && options.metersPerUnit < 1e30))
     return fail("Metres a unit are a number above 0.");
   if (options.clip)
-    if (auto ok = check(*options.clip, targets); !ok) return ok;
-  return options.head ? check(*options.head) : Result<void>{};
+    if (auto ok = check(*options.clip, targets, options); !ok) return ok;
+  return options.head ? check(*options.head, options) : Result<void>{};
 }
 
 double metersPerUnit(const Rig& rig, const UsdOptions& options) {
@@ -84,10 +92,16 @@ double metersPerUnit(const Rig& rig, const UsdOptions& options) {
 std::string header(const Rig& rig, const UsdOptions& options) {
   std::string text =
       "#usda 1.0\n(\n    defaultPrim = \"face\"\n    doc = \"sweepface " SWEEPFACE_VERSION "\"\n";
-  const auto times = timeCodes(options);
-  if (times) text += fmt::format("    endTimeCode = {}\n", times->last);
+  const auto codes = options.clip   ? timeCodes(options.clip->times, options)
+                     : options.head ? timeCodes(options.head->times, options)
+                                    : std::vector<double>{};
+  const bool isAnimated = !codes.empty();
+  // A viewer that is not told steps through 24 frames a second, so between the samples.
+  if (isAnimated)
+    text += fmt::format("    endTimeCode = {}\n    framesPerSecond = {}\n", codes.back(),
+                        options.timeCodesPerSecond);
   text += fmt::format("    metersPerUnit = {}\n", metersPerUnit(rig, options));
-  if (times) text += fmt::format("    startTimeCode = {}\n", times->first);
+  if (isAnimated) text += fmt::format("    startTimeCode = {}\n", codes.front());
   return text + fmt::format("    timeCodesPerSecond = {}\n    upAxis = \"{}\"\n)\n\n",
                             options.timeCodesPerSecond, options.zUp ? 'Z' : 'Y');
 }

@@ -183,11 +183,13 @@ TEST(UsdWriter, HasATimeSampleForEachFrame) {
   EXPECT_EQ(layer.value(".startTimeCode"), "15");
   EXPECT_EQ(layer.value(".endTimeCode"), "21.75");
   EXPECT_EQ(layer.value(".timeCodesPerSecond"), "30");
+  EXPECT_EQ(layer.value(".framesPerSecond"), "30");
   EXPECT_EQ(layer.value(kAnimation + ".float[] blendShapeWeights"), "[0.75]");
   using Samples = std::vector<std::pair<std::string, std::string>>;
   EXPECT_EQ(layer.samples(kAnimation),
             (Samples{{"15", "[0],"}, {"18", "[0.25],"}, {"21", "[1.5],"}, {"21.75", "[-1],"}}));
   EXPECT_FALSE(layerOf(rig).has(".startTimeCode"));
+  EXPECT_FALSE(layerOf(rig).has(".framesPerSecond"));
 }
 
 TEST(UsdWriter, TurnsTheHeadAboutItsPivot) {
@@ -275,6 +277,7 @@ TEST(UsdWriter, RefusesClipsThatDoNotFit) {
   EXPECT_TRUE(failsWith(written({{"a"}, {1, 1}, {0, 0}}), {"do not increase"}));
   EXPECT_TRUE(failsWith(written({{"a"}, {0, std::nan("")}, {0, 0}}), {"do not increase"}));
   EXPECT_TRUE(failsWith(written({{"a"}, {0}, {1e39}}), {"too large"}));
+  EXPECT_TRUE(failsWith(written({{"a"}, {0, 1e-9}, {0, 1}}), {"a time code apart"}));
   rig.targets.clear();
   EXPECT_TRUE(failsWith(written({{}, {0}, {}}), {"no targets to animate"}));
   const HeadTrack head{{0, 1}, {{0, 0, 0, 1}}, {}};
