@@ -8,6 +8,7 @@ namespace {
 
 // APPNOTE.TXT, the specification of PKWARE, 4.3.
 constexpr std::uint32_t kLocal = 0x04034b50, kCentral = 0x02014b50, kEnd = 0x06054b50;
+constexpr std::size_t kMostHeaderBytes = 192;  // of a file, names aside, or of the end
 constexpr std::size_t kLocalBytes = 30, kAlignment = 64, kMost = 0xFFFFFFFF;
 constexpr unsigned kVersion = 10, kUtf8 = 1 << 11, kDay = 0x21;  // the first of 1980
 constexpr unsigned kPadding = 0x1986;                            // OpenUSD's kind of extra field
@@ -44,6 +45,10 @@ std::string padding(std::size_t dataAt) {
 
 Result<std::string> archive(std::span<const ArchiveFile> files) {
   std::string bytes, directory;
+  std::size_t size = kMostHeaderBytes;
+  for (const ArchiveFile& file : files)
+    size += file.bytes.size() + 2 * file.name.size() + kMostHeaderBytes;
+  bytes.reserve(size);  // a layer is large: there is no room for it thrice
   for (const ArchiveFile& file : files) {
     const std::size_t start = bytes.size();
     const std::string extra = padding(start + kLocalBytes + file.name.size());
