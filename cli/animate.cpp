@@ -286,10 +286,11 @@ Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
   const bool isFile = glb || csv || isUsd(a.output);
   if (!isFile && !meansFolder(utf8Path(a.output)))
-    return fail(fmt::format(
-        "Cannot write {}: its name must end in .glb, .usda or .csv, or be a folder's, without an "
-        "ending or with a / behind it.",
-        a.output));
+    return fail(
+        fmt::format("Cannot write {}: its name must end in .glb, .usda, .usdz or .csv, or be a "
+                    "folder's, without "
+                    "an ending or with a / behind it.",
+                    a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

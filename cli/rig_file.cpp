@@ -11,8 +11,8 @@ void addRigFile(CLI::App& app, RigFileArguments& a) {
                "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
   app.add_option("--meters-per-unit", a.metersPerUnit,
                  "For .usda and .usdz: how long a unit of the face is, 0.01 for centimetres; if "
-                 "not given 1 "
-                 "for a face from a .glb, and otherwise 0.01")
+                 "not given 1 for a face with the scene of a .glb, what a drawing says its units "
+                 "are, or 0.01")
       ->check(positiveNumber(1e9))
       ->type_name("M");
   app.add_flag("--z-up", a.zUp, "For .usda and .usdz: z points up in the face, instead of y");

@@ -96,7 +96,7 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, const RigFile& g
 void saveUsd(const Rig& rig, const std::filesystem::path& path, const RigFile& given,
              double timeCodesPerSecond, double metersPerUnit, bool zUp) {
   const bool isArchive = extensionOf(path) == ".usdz";
-  if (!isArchive) checkKind(path, ".usda");
+  if (!isArchive && extensionOf(path) != ".usd") checkKind(path, ".usda");
   const RigFileOptions file(rig, given);
   auto options = file.make<UsdOptions>();
   options.timeCodesPerSecond = timeCodesPerSecond;
@@ -243,8 +243,8 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
           "Writes a .usda, or a .usdz with the images of its materials, with the targets as blend "
           "shapes of UsdSkel. A clip becomes a time sample for each of its frames. meters_per_unit "
-          "0: 1 for a rig from a GLB, otherwise what its units are, or 0.01. The rest is as in "
-          "save_glb.")
+          "0: 1 for a rig with the scene of a GLB, otherwise what its units are, or 0.01. The rest "
+          "is as in save_glb.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
            "Writes an expression as an OBJ, in the source's order, with the surface's normals.")
       .def("packed", &packed, "tolerance"_a = 0, py::kw_only(), "texture_bits"_a = 0,

@@ -151,8 +151,8 @@ TEST_F(Export, NamesSayWhatIsWritten) {
   EXPECT_TRUE(fails("render face.sweep -o view.svg", "must end in .png"));
   EXPECT_TRUE(fails("report face.sweep -o page.pdf", "must end in .html"));
   EXPECT_TRUE(fails("convert neutral.obj -o face.json", "must end in .sweep"));
-  EXPECT_TRUE(
-      fails("animate face.sweep --to smile=1 -o move.mp4", "must end in .glb, .usda or .csv"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o move.mp4",
+                    "must end in .glb, .usda, .usdz or .csv"));
   EXPECT_TRUE(fails("plot face.sweep --to smile=1 -o plot.png", "must end in .svg"));
   EXPECT_EQ(run("export face.sweep -o SMILE.OBJ --quiet").code, 0);
 }

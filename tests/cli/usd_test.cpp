@@ -87,6 +87,8 @@ TEST_F(ToolUsd, RefusesOptionsThatDoNotGoTogether) {
   EXPECT_TRUE(fails("export face.sweep -o out.usda --meters-per-unit 0", "--meters-per-unit", 2));
   const std::string animate = "animate face.sweep --to smile=1 -o out.usda ";
   EXPECT_TRUE(fails(animate + "--keys exact", "are for .glb files"));
+  EXPECT_TRUE(fails(animate + "--seconds 1e-9", "a time code apart"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o out.usdc", ".usda, .usdz or .csv"));
   EXPECT_TRUE(fails(animate + "--head on", "has no angles of the head"));
   EXPECT_TRUE(fails("animate still.sweep -o out.usda", "Say where to go with --to"));
   EXPECT_EQ(contents(folder / "out.usda"), "old");

@@ -96,7 +96,7 @@ class Files(FaceTest):
         self.rig.save_usd(path, clip=clip, weights={"jawOpen": 0.5}, time_codes_per_second=30, meters_per_unit=1)
         with open(path, encoding="utf-8") as file:
             text = file.read()
-        self.assertIn("    endTimeCode = 30\n    metersPerUnit = 1\n    startTimeCode = 0\n", text)
+        self.assertIn("    endTimeCode = 30\n    framesPerSecond = 30\n    metersPerUnit = 1\n    startTimeCode = 0\n", text)
         self.assertIn("]," + "\n" + 16 * " " + "15: [", text)
         self.assertEqual(text.count("def BlendShape"), len(self.rig.target_names))
         self.rig.save_usd(path, level=2, morph_normals=True, z_up=True)
@@ -110,6 +110,9 @@ class Files(FaceTest):
             self.assertIsNone(file.testzip())
             self.assertEqual(file.namelist(), ["face.usda"])
             self.assertEqual(file.read("face.usda").decode(), text)
+        self.rig.save_usd(self.path("face.usd"), level=2, morph_normals=True, z_up=True)
+        with open(self.path("face.usd"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), text)
         with self.refuses("leave the pivot out"):
             self.rig.save_usd(path, pivot=[0, 0, 0])
         with self.refuses("Metres a unit"):
