@@ -288,8 +288,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
   if (!isFile && !meansFolder(utf8Path(a.output)))
     return fail(
         fmt::format("Cannot write {}: its name must end in .glb, .usda, .usdz or .csv, or be a "
-                    "folder's, without "
-                    "an ending or with a / behind it.",
+                    "folder's, without an ending or with a / behind it.",
                     a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);

@@ -29,11 +29,14 @@ double shareOf(const Json& object, std::string_view key, double absent) {
   return std::clamp(numberOf(object, key, absent), 0.0, 1.0);
 }
 
-const Json none;
+const Json& none() {
+  static const Json json;
+  return json;
+}
 
 const Json& memberOf(const Json& object, std::string_view key) {
   const Json* const found = gltf::find(object, key);
-  return found ? *found : none;
+  return found ? *found : none();
 }
 
 std::string nameOf(const Json& object) {
@@ -108,7 +111,7 @@ class SceneLooks {
   /// The rig's texture coordinates are those of the base colour, or else the first set.
   static bool areOfTheRig(const Json& map, const Json& base) {
     return areOfTheFirstSet(map) &&
-           transformOf(map) == (areOfTheFirstSet(base) ? transformOf(base) : none);
+           transformOf(map) == (areOfTheFirstSet(base) ? transformOf(base) : none());
   }
 
   Map mapOf(const Json& map, const Json& base) {
@@ -120,7 +123,7 @@ class SceneLooks {
     if (!source) return {};
     const Json& samplers = document_.list("samplers");
     const auto sampler = gltf::findIndex(textures[*texture], "sampler", samplers.size());
-    const Json& wraps = sampler ? samplers[*sampler] : none;
+    const Json& wraps = sampler ? samplers[*sampler] : none();
     return {imageOf(*source), {wrapOf(wraps, "wrapS"), wrapOf(wraps, "wrapT")}};
   }
 
