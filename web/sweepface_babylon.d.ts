@@ -1,6 +1,5 @@
 import type {Material} from '@babylonjs/core/Materials/material.js';
 import type {Mesh} from '@babylonjs/core/Meshes/mesh.js';
-import type {Node} from '@babylonjs/core/node.js';
 import type {Scene} from '@babylonjs/core/scene.js';
 import type {Bytes, Drive, DriveKind, LoadOptions, Pose, Sweepface, Weights} from './sweepface.js';
 
@@ -41,8 +40,9 @@ export class SweepfaceMesh extends Mesh {
   update(seconds?: number): void;
   /** Gets the face ready to move. Otherwise that happens when it first moves, and takes a few frames. */
   prepare(): void;
-  /** Another face of the same file with the same weights, which moves by itself; it shares the material. */
-  clone(name?: string, parent?: Node | null): SweepfaceMesh;
+  /** Another face of the same file with the same weights, which moves by itself; it shares the material. Without a parent
+   * it has that of the original. Children are cloned, too, unless `doNotCloneChildren` is given. */
+  clone(name?: string, parent?: Parameters<Mesh['clone']>[1], doNotCloneChildren?: boolean): SweepfaceMesh;
   /** Frees the geometry and the face. */
   dispose(doNotRecurse?: boolean, disposeMaterialAndTextures?: boolean): void;
 }

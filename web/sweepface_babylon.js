@@ -25,8 +25,8 @@ const reversed = (triangles) => triangles.map((_, k) => triangles[k + [0, 1, -1]
 /** The seconds that pass with a frame, as for Babylon.js's own animations. */
 function passing(scene) {
   if (!scene.animationsEnabled) return 0;
-  const milliseconds = scene.useConstantAnimationDeltaTime ? 16 : scene.getEngine().getDeltaTime();
-  return Math.max(milliseconds, 0) * scene.animationTimeScale / 1000;
+  if (scene.useConstantAnimationDeltaTime) return 0.016;  // whatever the scale of time
+  return Math.max(scene.getEngine().getDeltaTime() * scene.animationTimeScale, 0) / 1000;
 }
 
 async function bytesOf(source) {
@@ -34,6 +34,23 @@ async function bytesOf(source) {
   const answer = await fetch(source);
   if (answer.ok) return answer.arrayBuffer();
   throw new Error(`${source} cannot be loaded: the server answers ${answer.status} ${answer.statusText}`.trimEnd() + '.');
+}
+
+/** The name of a file without its folders and query; other URLs, such as data:, have none. */
+function nameIn(source) {
+  const path = /^(data|blob):/i.test(source) ? '' : String(source).split(/[?#]/)[0];
+  return path.split('/').pop() || 'face';
+}
+
+/** What a clone has in common with its original, besides place, pivot and parent. */
+const COPIED = [
+  'advancesWithScene', 'isVisible', 'visibility', 'isPickable', 'receiveShadows', 'renderingGroupId', 'layerMask',
+  'alphaIndex', 'billboardMode', 'checkCollisions', 'alwaysSelectAsActiveMesh', 'metadata'
+];
+
+/** What Babylon.js gives to `clone` after the name: a node, or options when it clones a mesh with its children. */
+function cloning(parent, doNotCloneChildren) {
+  return !parent || typeof parent.getClassName === 'function' ? {parent, doNotCloneChildren} : {...parent};
 }
 
 /** A face in a scene. Weights can be set at any time; each time the scene is rendered, it moves on and follows them. */
@@ -44,7 +61,8 @@ export class SweepfaceMesh extends Mesh {
   #vectors;
   #stale = true;
   #moving;
-  #rendering;
+  #observers;
+  #isMirrored;
 
   /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load. */
   static async load(source, scene, options = {}) {
@@ -52,30 +70,40 @@ export class SweepfaceMesh extends Mesh {
     if (usual.regions) usual.regions = ownRegions(usual.regions);
     if (isUrl) usual.name ??= String(source);
     const face = await Sweepface.load(await bytesOf(source), usual);
-    return new this(isUrl ? String(source).split('/').pop() : 'face', scene, face);
+    try {
+      if (scene?.isDisposed) throw new Error('The scene was disposed of while the face was loading.');
+      return new this(isUrl ? nameIn(source) : 'face', scene, face);
+    } catch (error) {
+      face.dispose();
+      throw error;
+    }
   }
 
   /** The mesh disposes of the face with itself. Materials are made for its parts if none is given. */
   constructor(name, scene, face, material) {
     if (typeof face?.evaluate !== 'function') throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
+    const moving = face.advance(0);  // throws if it was disposed of, before the scene has a mesh of it
     super(name, scene);
     this.face = face;
-    this.#moving = face.advance(0);
+    this.#moving = moving;
+    this.#isMirrored = !this.getScene().useRightHandedSystem;
     this.#vectors = [VertexBuffer.PositionKind, VertexBuffer.NormalKind].map((kind) => {
       return {kind, values: new Float32Array(3 * face.vertexCount)};
     });
     this.#makeGeometry();
     this.material = material ?? this.#makeMaterial();
-    this.#rendering = this.getScene().onBeforeRenderObservable.add((scene) => {
-      this.update(this.advancesWithScene ? passing(scene) : 0);
-    });
+    const {onBeforeRenderObservable, onBeforeRenderTargetsRenderObservable} = this.getScene();
+    this.#observers = [
+      onBeforeRenderObservable.add((scene) => this.#pass(this.advancesWithScene ? passing(scene) : 0)),
+      onBeforeRenderTargetsRenderObservable.add(() => this.update())  // after all that set weights before the frame
+    ];
   }
 
   #makeGeometry() {
     const {face} = this, data = new VertexData();
     this.#evaluate();
     [data.positions, data.normals] = this.#vectors.map(({values}) => values);
-    data.indices = this.getScene().useRightHandedSystem ? reversed(face.triangles) : face.triangles;
+    data.indices = this.#isMirrored ? face.triangles : reversed(face.triangles);
     if (face.texcoords) data.uvs = face.texcoords;
     data.applyToMesh(this, true);
     this.releaseSubMeshes();
@@ -93,7 +121,7 @@ export class SweepfaceMesh extends Mesh {
   /** Faces are right-handed, and most scenes are left-handed: they see the mirror image of x. */
   #evaluate() {
     this.face.evaluate(...this.#vectors.map(({values}) => values));
-    if (!this.getScene().useRightHandedSystem)
+    if (this.#isMirrored)
       for (const {values} of this.#vectors) for (let k = 0; k < values.length; k += 3) values[k] = -values[k];
     this.#stale = false;
   }
@@ -143,18 +171,22 @@ export class SweepfaceMesh extends Mesh {
   /** Prepares the face to move. Otherwise that happens at its first move, and takes a few frames. */
   prepare() { this.face.prepare(); }
 
-  /** The scene calls it before each frame, with the seconds since the last; costs nothing while nothing moves. */
+  #pass(seconds) {
+    if (!this.isDisposed() && ((this.#moving && seconds > 0) || !Number.isFinite(seconds))) this.advance(seconds);
+  }
+
+  /** Lets time pass and shows it, as the scene does before each frame; costs nothing while nothing moves. */
   update(seconds = 0) {
-    if (this.isDisposed()) return;
-    if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
-    if (!this.#stale) return;
+    this.#pass(seconds);
+    if (this.isDisposed() || !this.#stale) return;
     this.#evaluate();
     for (const {kind, values} of this.#vectors) this.updateVerticesData(kind, values);
     this.refreshBoundingInfo();
   }
 
   /** Another face of the same file, in the same pose, that moves independently; it shares the material. */
-  clone(name = this.name, parent = this.parent) {
+  clone(name = this.name, newParent = null, doNotClone = false) {
+    const {parent, doNotCloneChildren} = cloning(newParent, doNotClone);
     const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
     for (const region of regions) {
       const weights = region === undefined ? this.face.weights : this.face.weightsIn(region);
@@ -167,12 +199,17 @@ export class SweepfaceMesh extends Mesh {
     twin.rotation.copyFrom(this.rotation);
     twin.rotationQuaternion = this.rotationQuaternion?.clone() ?? null;
     twin.scaling.copyFrom(this.scaling);
-    twin.parent = parent;
+    twin.setPivotMatrix(this.getPivotMatrix(), this._postMultiplyPivotMatrix);
+    for (const key of COPIED) twin[key] = this[key];
+    twin.setEnabled(this.isEnabled(false));
+    twin.parent = parent ?? this.parent;
+    if (!doNotCloneChildren)
+      for (const child of this.getDescendants(true)) child.clone?.(`${twin.name}.${child.name}`, twin);
     return twin;
   }
 
   dispose(doNotRecurse, disposeMaterialAndTextures = false) {
-    this.getScene().onBeforeRenderObservable.remove(this.#rendering);
+    for (const observer of this.#observers) observer.remove();
     super.dispose(doNotRecurse, disposeMaterialAndTextures);
     this.face.dispose();
   }

@@ -57,10 +57,14 @@ test('forces move it as the scene lets time pass', options, async () => {
   scene.animationsEnabled = true;
   scene.animationTimeScale = 3;
   scene.render();
-  assert.ok(isAt(0.128));
+  assert.ok(isAt(0.096), 'as in Babylon.js, frames of constant time are not scaled');
+  scene.useConstantAnimationDeltaTime = false;
+  scene.getEngine().getDeltaTime = () => 8;
+  scene.render();
+  assert.ok(isAt(0.12));
   mesh.advancesWithScene = false;
   scene.render();
-  assert.ok(isAt(0.128));
+  assert.ok(isAt(0.12));
   mesh.push('browInnerUp', 1, 4);
   assert.equal(mesh.advance(0.1), true);
   assert.ok(mesh.weights.browInnerUp > 0.05);
@@ -111,6 +115,53 @@ test('clones move by themselves and share the material', options, async () => {
   twin.setWeights({jawOpen: 0.25});
   scene.render();
   assertShows(twin);
+});
+
+test('clones are like those of other meshes', options, async () => {
+  const {scene, mesh} = await load(), {Mesh} = await import(`${core}/Meshes/mesh.js`);
+  const {Vector3} = await import(`${core}/Maths/math.vector.js`);
+  const head = new Mesh('head', scene), hat = new Mesh('hat', scene);
+  mesh.parent = head;
+  hat.parent = mesh;
+  Object.assign(mesh, {receiveShadows: true, isPickable: false, renderingGroupId: 2, advancesWithScene: false});
+  mesh.setPivotPoint(new Vector3(1, 2, 3));
+  const twin = mesh.clone('twin'), bald = mesh.clone('bald', null, true);
+  assert.deepEqual([twin, bald].map(({parent}) => parent), [head, head]);
+  assert.deepEqual([twin, bald].map((clone) => clone.getChildren().map(({name}) => name)), [['twin.hat'], []]);
+  assert.deepEqual([twin.receiveShadows, twin.isPickable, twin.renderingGroupId, twin.advancesWithScene], [true, false, 2, false]);
+  assert.deepEqual(twin.getPivotPoint().asArray(), [1, 2, 3]);
+  for (const face of [twin, bald]) face.dispose();
+  const [face] = head.clone('other').getChildren();
+  assert.equal(face.getClassName(), 'SweepfaceMesh');
+  assert.equal(face.getChildren().length, 1);
+  assert.equal(mesh.clone('plain', {doNotCloneChildren: true}).getChildren().length, 0);
+  scene.render();
+});
+
+test('weights that are set right before a frame are in it', options, async () => {
+  const {scene, mesh} = await load();
+  scene.onBeforeRenderObservable.add(() => mesh.setWeights({jawOpen: 1}));
+  scene.render();
+  assertShows(mesh);
+});
+
+test('a face goes if no mesh can be made of it, and leaves none behind', options, async () => {
+  const {scene, mesh, SweepfaceMesh} = await load();
+  mesh.dispose();
+  assert.throws(() => new SweepfaceMesh('face', scene, mesh.face), /disposed of/);
+  assert.equal(scene.meshes.length, 0);
+  const late = SweepfaceMesh.load(readFileSync(sample), scene);
+  scene.dispose();
+  await assert.rejects(late, /scene was disposed of while/);
+});
+
+test('a mesh has the name of its file', options, async (context) => {
+  const {scene, SweepfaceMesh} = await load();
+  context.mock.method(globalThis, 'fetch', async () => new Response(readFileSync(sample)));
+  const nameOf = async (url) => (await SweepfaceMesh.load(url, scene)).name;
+  assert.equal(await nameOf(new URL('https://example.org/a/smile.sweep?version=1/2#b')), 'smile.sweep');
+  assert.equal(await nameOf('blob:https://example.org/0-1'), 'face');
+  assert.equal(await nameOf('data:application/octet-stream;base64,AA/BB'), 'face');
 });
 
 test('a mesh that is disposed of is forgotten', options, async () => {

@@ -58,6 +58,7 @@ export async function useBabylon(scene: BabylonScene, bytes: ArrayBuffer): Promi
   mesh.position.x = 3;
   const twin: BabylonMesh = mesh.clone('twin'), moving: boolean = twin.advance(0.1);
   console.log(moving, mesh.weights.jawOpen, mesh.face.tolerance, new ClipPlayer(mesh, readClip('')).match.undriven);
+  mesh.clone('bald', null, true).clone('last', twin);
   new BabylonMesh('other', scene, await Sweepface.load(bytes), new StandardMaterial('skin', scene)).dispose();
   // @ts-expect-error A mesh is made of a face.
   new BabylonMesh('none', scene, bytes);
