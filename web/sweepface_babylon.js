@@ -7,6 +7,7 @@ import {VertexData} from '@babylonjs/core/Meshes/mesh.vertexData.js';
 import {SubMesh} from '@babylonjs/core/Meshes/subMesh.js';
 import {Sweepface} from './sweepface.js';
 import {ownRegions} from './sweepface_regions.js';
+import {twinOf} from './sweepface_twin.js';
 
 /** Plain materials, named as in the source; seen from both sides, as mouths and lashes are. */
 function materialsOf(face, scene) {
@@ -187,14 +188,7 @@ export class SweepfaceMesh extends Mesh {
   /** Another face of the same file, in the same pose, that moves independently; it shares the material. */
   clone(name = this.name, newParent = null, doNotClone = false) {
     const {parent, doNotCloneChildren} = cloning(newParent, doNotClone);
-    const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
-    for (const region of regions) {
-      const weights = region === undefined ? this.face.weights : this.face.weightsIn(region);
-      const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // if none, no targets need to be read
-      face.setWeights(Object.fromEntries(set), region);
-    }
-    if (this.face.pose) face.look(this.face.pose);
-    const twin = new this.constructor(name, this.getScene(), face, this.material);
+    const twin = new this.constructor(name, this.getScene(), twinOf(this.face), this.material);
     twin.position.copyFrom(this.position);
     twin.rotation.copyFrom(this.rotation);
     twin.rotationQuaternion = this.rotationQuaternion?.clone() ?? null;

@@ -1,6 +1,7 @@
 // Shared by the meshes of sweepface/three, sweepface/gpu and sweepface/webgpu.
 import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial} from 'three';
 import {Pin} from './sweepface_pin.js';
+import {twinOf} from './sweepface_twin.js';
 import {isWeight} from './sweepface_values.js';
 
 /** Plain materials, named as in the source; double-sided, as mouths and lashes are seen from both sides. */
@@ -237,13 +238,7 @@ export class FaceMesh extends Mesh {
   clone(recursive) {
     this.#takeInfluences();
     this.morphTargetInfluences ??= undefined;  // three.js cannot copy null
-    const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
-    for (const region of regions) {
-      const weights = region === undefined ? this.face.weights : this.face.weightsIn(region);
-      const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // if none, no targets need to be read
-      face.setWeights(Object.fromEntries(set), region);
-    }
-    if (this.face.pose) face.look(this.face.pose);
+    const face = twinOf(this.face);
     const materials = this[materialsOfClone](), lacks = face.parts.length - materials.length;  // if groups were changed
     const filled = lacks > 0 ? [...materials, ...Array(lacks).fill(materials.at(-1))] : materials;
     const twin = new this.constructor(face, filled).copy(this, recursive);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gltf/scene.hpp"
+#include "io/text.hpp"
 #include "usd/prim_names.hpp"
 
 namespace sweepface::usd {
@@ -161,7 +162,11 @@ class SceneLooks {
 Result<Looks> looksOf(const Rig& rig, bool withImages) {
   if (rig.scene.empty()) return Looks{};
   const auto document = gltf::parseScene(rig.scene);
-  if (!document) return std::unexpected(document.error());
+  if (!document)
+    return fail(fmt::format(
+        "The scene that came with the face cannot be read ({}); convert the face again, or with "
+        "--bare.",
+        io::withoutAdvice(document.error().message)));
   const Polygons& polygons = rig.source.polygons;
   return SceneLooks(*document, withImages && !polygons.cornerTexcoords.empty())
       .read(polygons.materials);
