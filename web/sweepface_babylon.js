@@ -30,11 +30,10 @@ function passing(scene) {
   return Math.max(scene.getEngine().getDeltaTime() * scene.animationTimeScale, 0) / 1000;
 }
 
-async function bytesOf(source) {
-  if (typeof source !== 'string' && !(source instanceof URL)) return source;
-  const answer = await fetch(source);
+async function download(url) {
+  const answer = await fetch(url);
   if (answer.ok) return answer.arrayBuffer();
-  throw new Error(`${source} cannot be loaded: the server answers ${answer.status} ${answer.statusText}`.trimEnd() + '.');
+  throw new Error(`${url} cannot be loaded: the server answers ${answer.status} ${answer.statusText}`.trimEnd() + '.');
 }
 
 /** The name of a file without its folders and query; other URLs, such as data:, have none. */
@@ -70,7 +69,7 @@ export class SweepfaceMesh extends Mesh {
     const usual = {...options}, isUrl = typeof source === 'string' || source instanceof URL;
     if (usual.regions) usual.regions = ownRegions(usual.regions);
     if (isUrl) usual.name ??= String(source);
-    const face = await Sweepface.load(await bytesOf(source), usual);
+    const face = await Sweepface.load(isUrl ? await download(source) : source, usual);
     try {
       if (scene?.isDisposed) throw new Error('The scene was disposed of while the face was loading.');
       return new this(isUrl ? nameIn(source) : 'face', scene, face);

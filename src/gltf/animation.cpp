@@ -1,14 +1,15 @@
 #include "gltf/animation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <set>
 
 #include "sweepface/keys.hpp"
 
 #include "gltf/head_track.hpp"
+#include "io/single.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -94,12 +95,6 @@ std::size_t sameAsBefore(const std::vector<double>& times) {
 }
 bool increase(const std::vector<double>& times) { return sameAsBefore(times) == times.size(); }
 
-bool areSingle(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) {
-    return std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
-  });
-}
-
 class Animator {
  public:
   Animator(BoundScene& scene, const GlbOptions& options, Builder& builder)
@@ -110,7 +105,7 @@ class Animator {
     if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
     if (options_.clip && options_.keyTolerance > 0) {
       // Fitting keys to times that cannot be written may take very long.
-      if (!areSingle(options_.clip->times)) return beyondFloats(options_.clip->times);
+      if (!io::areSingle(options_.clip->times)) return beyondFloats(options_.clip->times);
       few_ = fewestKeys(*options_.clip, options_.keyTolerance);
     }
     // A key with tangents is as large as three without.
@@ -159,8 +154,8 @@ class Animator {
     for (const Quaternion& q : options_.head->rotations)
       rotations.insert(rotations.end(), q.begin(), q.end());
     const Vec3& pivot = options_.head->pivot;
-    if (!areSingle(options_.head->times) || !increase(options_.head->times) ||
-        !areSingle(rotations) || !areSingle({pivot.x, pivot.y, pivot.z}) ||
+    if (!io::areSingle(options_.head->times) || !increase(options_.head->times) ||
+        !io::areSingle(rotations) || !io::areSingle(std::array{pivot.x, pivot.y, pivot.z}) ||
         rotations.size() != 4 * options_.head->times.size() || rotations.empty())
       return fail("The head's rotation needs one for each of its increasing times.");
     return addHeadTrack(scene_.document, *options_.head,
@@ -173,7 +168,7 @@ class Animator {
           "The motion is too fast, too slow or too wide for the single precision of glTF; give it "
           "other seconds or weights.");
     const std::size_t same = sameAsBefore(times);
-    if (areSingle(times) && same < times.size())
+    if (io::areSingle(times) && same < times.size())
       return fail(
           fmt::format("Keys about {:.10g} s are closer to each other than the single precision of "
                       "glTF can tell; ask for fewer frames a second, or play it in parts.",
@@ -192,7 +187,7 @@ class Animator {
                       : few_          ? columnsOf(*few_, targets)
                                       : framesOf(*options_.clip, targets);
     const std::vector<double> values = interleaved(keys);
-    if (!areSingle(keys.times) || !increase(keys.times) || !areSingle(values))
+    if (!io::areSingle(keys.times) || !increase(keys.times) || !io::areSingle(values))
       return beyondFloats(keys.times);
     if (!input_) {
       Column times = pack(keys.times, 1);

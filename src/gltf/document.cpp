@@ -328,6 +328,13 @@ Result<Document> parseDocument(std::string_view bytes, const fs::path& folder) {
   return document;
 }
 
+std::string materialName(const Document& document, std::size_t material) {
+  const Json* const name = find(document.list("materials")[material], "name");
+  if (name && name->is_string() && !name->get_ref<const std::string&>().empty())
+    return name->get<std::string>();
+  return fmt::format("material_{}", material);
+}
+
 std::vector<bool> jointsOf(const Document& document) {
   std::vector<bool> isJoint(document.list("nodes").size());
   for (const Json& skin : document.list("skins"))

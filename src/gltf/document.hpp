@@ -56,6 +56,9 @@ inline constexpr std::string_view dracoRefusal =
 /// named "bufferView".
 bool isHarmlessExtension(std::string_view name);
 
+/// The name of a material, or material_N if it has none.
+std::string materialName(const Document& document, std::size_t material);
+
 /// [nodes] whether each is a joint of a skin.
 std::vector<bool> jointsOf(const Document& document);
 

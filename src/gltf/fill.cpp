@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/single.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface::gltf {
@@ -10,8 +11,6 @@ namespace {
 
 // How many targets are evaluated at once; more would only take more memory.
 constexpr std::size_t batch = 16;
-// Half a unit in a float's last place, as a share of the number.
-constexpr double halfDigit = 0x1p-24;
 
 /// Converts from the space of the scene to what a run's accessors hold.
 class Packer {
@@ -28,7 +27,7 @@ class Packer {
   }
   /// A difference that would be lost when added to a float as large as the mesh becomes 0.
   Column differences(const std::vector<Vec3>& vectors) const {
-    const double least = halfDigit * largest_;
+    const double least = io::kHalfDigit * largest_;
     return packed([&](Index place) {
       const Vec3 d = fromScene_.direction(vectors[place]);
       return norm(d) <= least ? Vec3{} : d * (1 / encoding_.half);
@@ -45,7 +44,7 @@ class Packer {
     for (std::size_t v = 0; v < list.size(); ++v) {
       const Vec3 before = neutral[places_[v]], after = before + differences[places_[v]];
       const Vec3 change = normal(after) - list[v];
-      list[v] = norm(change) <= halfDigit ? Vec3{} : change;
+      list[v] = norm(change) <= io::kHalfDigit ? Vec3{} : change;
     }
     const auto isFraction = [](const Vec3& d) {
       return std::abs(d.x) <= 1 && std::abs(d.y) <= 1 && std::abs(d.z) <= 1;

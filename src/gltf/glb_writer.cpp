@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <numeric>
+#include <optional>
 
 #include "sweepface/gltf.hpp"
 
@@ -7,52 +7,30 @@
 #include "gltf/binary.hpp"
 #include "gltf/fine_mesh.hpp"
 #include "gltf/quantize.hpp"
+#include "io/rig_output.hpp"
+#include "io/single.hpp"
 #include "mesh/check_indices.hpp"
-#include "mesh/grid_source.hpp"
-#include "rig/source_quads.hpp"
 
 namespace sweepface {
 namespace gltf {
 namespace {
 
-Result<void> check(const Clip& clip) {
-  if (clip.times.empty()) return fail("The clip has no frames.");
-  if (clip.weights.size() != clip.times.size() * clip.names.size())
-    return fail("The clip has not as many weights as it has frames times names.");
-  if (!(clip.times.front() >= 0))
-    return fail("The clip starts before 0, where glTF knows no time.");
-  return {};
-}
-
 Result<void> check(const Rig& rig, const GlbOptions& options) {
-  if (!rig.knowsTargets())
-    return fail("The targets of the face are not decoded yet; decode them before it is written.");
-  const std::size_t targets = rig.targets.size();
-  const auto differ = [&](std::string_view what, std::size_t count) {
-    return fail(
-        fmt::format("The {} has {} weights, but the face {} targets.", what, count, targets));
-  };
-  if (!options.weights.empty() && options.weights.size() != targets)
-    return differ("expression", options.weights.size());
-  if (options.motion && options.motion->size() != targets)
-    return differ("motion", options.motion->size());
-  if (options.clip && options.clip->names.size() != targets)
-    return differ("clip", options.clip->names.size());
-  if (options.clip)
-    if (auto ok = check(*options.clip); !ok) return ok;
+  const io::RigOutput output{options.lod, options.grid, options.weights, options.clip};
+  if (auto ok = io::checkOutput(rig, output); !ok) return ok;
+  if (options.motion && options.motion->size() != rig.targets.size())
+    return fail(fmt::format("The motion has {} weights, but the face {} targets.",
+                            options.motion->size(), rig.targets.size()));
+  if (options.clip && !(options.clip->times.front() >= 0))
+    return fail("The clip starts before 0, where glTF knows no time.");
   if (!(options.keyTolerance >= 0 && options.keyTolerance < 1e9))
     return fail("The tolerance of keys is a number from 0.");
-  if (options.lod < 0) return fail("A level of detail is 0 or more.");
-  if (options.grid) {
-    if (auto ok = checkGrid(rig, *options.grid, options.lod); !ok) return ok;
-    if (!rig.scene.empty())
-      return fail(
-          "The face goes back into its scene, which has vertices of its own; write it at a level "
-          "of detail, or leave the scene out.");
-  }
-  for (const double weight : options.weights)
-    if (!(std::abs(weight) <= std::numeric_limits<float>::max()))
-      return fail("A weight is not a number that a glTF can hold.");
+  if (options.grid && !rig.scene.empty())
+    return fail(
+        "The face goes back into its scene, which has vertices of its own; write it at a level of "
+        "detail, or leave the scene out.");
+  if (!io::areSingle(options.weights))
+    return fail("A weight is not a number that a glTF can hold.");
   return {};
 }
 
@@ -180,21 +158,12 @@ Result<std::string> formatGlb(const MeshRig& meshes) {
 Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   if (auto ok = gltf::check(rig, options); !ok) return std::unexpected(ok.error());
   if (auto ok = gltf::checkLod(rig.surface, options.lod); !ok) return std::unexpected(ok.error());
-  const Tessellation level(rig.surface, std::max(options.lod, 1));
-  const Tessellation& grid = options.grid ? *options.grid : level;
-  const bool unknownFaces =
-      rig.source.polygons.faceCount() == 0 || (options.lod > 0 && !knowsQuads(rig));
+  const io::OutputGrid grid(rig, options.lod, options.grid);
+  std::optional<Rig> other = io::withOtherMesh(rig, options.lod, options.grid);
   // A scene's vertices are those of the source in their order.
-  const bool unknownOrder = !rig.scene.empty() && !rig.source.ownOrder;
-  if (!options.grid && !unknownFaces && !unknownOrder)
-    return gltf::GlbWriter(rig, options, grid).write();
-  Rig whole = rig;
-  whole.scene.clear();
-  if (options.grid)
-    takeMeshOf(whole, grid);
-  else if (unknownFaces)
-    takeFacesOfSurface(whole);
-  return gltf::GlbWriter(whole, options, grid).write();
+  if (!other && !rig.scene.empty() && !rig.source.ownOrder) other = rig;
+  if (other) other->scene.clear();
+  return gltf::GlbWriter(other ? *other : rig, options, grid.get()).write();
 }
 
 }  // namespace sweepface

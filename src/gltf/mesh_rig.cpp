@@ -143,13 +143,9 @@ class RigReader {
   }
 
   Index readMaterial(Members& in) {
-    const Json& list = document_.list("materials");
-    const auto index = in.optionalIndex("material", list.size(), "materials");
-    if (!index) return -1;
-    const Json* const name = find(list[*index], "name");
-    if (name && name->is_string() && !name->get_ref<const std::string&>().empty())
-      return materials_(name->get_ref<const std::string&>());
-    return materials_(fmt::format("material_{}", *index));
+    const std::size_t count = document_.list("materials").size();
+    const auto index = in.optionalIndex("material", count, "materials");
+    return index ? materials_(materialName(document_, *index)) : -1;
   }
 
   std::string meshName(const Run& run) const {

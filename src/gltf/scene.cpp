@@ -8,6 +8,7 @@
 
 #include "gltf/accessor_uses.hpp"
 #include "gltf/binary.hpp"
+#include "gltf/image_type.hpp"
 #include "gltf/left_to_face.hpp"
 #include "gltf/references.hpp"
 #include "gltf/resources.hpp"
@@ -136,20 +137,6 @@ class Emptier {
 
 // ---- Images ----
 
-std::string kindOf(std::string_view bytes) {
-  struct Kind {
-    std::string_view start, type;
-  };
-  constexpr std::array<Kind, 4> kinds{{{"\x89PNG\r\n", "image/png"},
-                                       {"\xFF\xD8\xFF", "image/jpeg"},
-                                       {"\xABKTX 20\xBB", "image/ktx2"},
-                                       {"DDS ", "image/vnd-ms.dds"}}};
-  for (const Kind& kind : kinds)
-    if (bytes.starts_with(kind.start)) return std::string(kind.type);
-  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
-  return {};
-}
-
 /// Moves images that are stored elsewhere into the document.
 class ImageEmbedder {
  public:
@@ -198,7 +185,7 @@ class ImageEmbedder {
   Embedded embed(const std::string& uri, const std::string& given) {
     auto fetched = fetch(uri, folder_);
     if (!fetched) return {0, {}, fetched.error().message};
-    const std::string kind = kindOf(fetched->bytes);
+    const std::string kind = imageTypeOf(fetched->bytes);
     const std::string type = !kind.empty()                ? kind
                              : !fetched->mimeType.empty() ? fetched->mimeType
                                                           : given;

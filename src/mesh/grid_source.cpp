@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "sweepface/lod_polygons.hpp"
+#include "sweepface/eval.hpp"
 
 namespace sweepface {
 
@@ -39,31 +39,6 @@ SourceMesh gridSource(const Surface& surface) {
   std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
   for (const auto& quad : grid.faces()) addQuad(source, quad);
   return source;
-}
-
-void takeFacesOfSurface(Rig& rig) {
-  const auto loose = static_cast<Index>(rig.source.loose.size());
-  SourceMesh source = gridSource(rig.surface);
-  source.loose = std::move(rig.source.loose);
-  for (Index k = 0; k < loose; ++k) source.gridVertex.push_back(-1 - k);
-  rig.source = std::move(source);
-}
-
-Result<void> checkGrid(const Rig& rig, const Tessellation& grid, Index lod) {
-  if (lod != 0)
-    return fail("A tessellation takes the place of a level of detail; ask for one of them.");
-  if (grid.isOfSites() || grid.level() != 0 || !grid.fits(rig.surface))
-    return fail("The tessellation is not one of the face with a density.");
-  return {};
-}
-
-void takeMeshOf(Rig& rig, const Tessellation& grid) {
-  SourceMesh source;
-  source.polygons = densityPolygons(rig, grid);
-  source.gridVertex.resize(grid.vertexCount());
-  std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
-  rig.source = std::move(source);
-  for (Target& target : rig.targets) target.looseDifference.clear();
 }
 
 }  // namespace sweepface

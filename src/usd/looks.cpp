@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "gltf/image_type.hpp"
 #include "gltf/scene.hpp"
 #include "io/text.hpp"
 #include "usd/prim_names.hpp"
@@ -15,9 +16,8 @@ using gltf::Json;
 
 /// The ending of an image's name, or nothing if it is of a type that USD does not know.
 std::string_view endingOf(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG\r\n\x1A\n")) return ".png";
-  if (bytes.starts_with("\xFF\xD8\xFF")) return ".jpg";
-  return {};
+  const std::string type = gltf::imageTypeOf(bytes);
+  return type == "image/png" ? ".png" : type == "image/jpeg" ? ".jpg" : "";
 }
 
 double numberOf(const Json& object, std::string_view key, double absent) {
@@ -40,11 +40,6 @@ const Json& memberOf(const Json& object, std::string_view key) {
   return found ? *found : none();
 }
 
-std::string nameOf(const Json& object) {
-  const Json& name = memberOf(object, "name");
-  return name.is_string() ? name.get<std::string>() : "";
-}
-
 Vec3 colourOf(const Json& object, std::string_view key, const Vec3& absent) {
   const Json& list = memberOf(object, key);
   Vec3 colour = absent;
@@ -63,8 +58,7 @@ class SceneLooks {
   Looks read(const std::vector<std::string>& wanted) {
     const Json& materials = document_.list("materials");
     for (std::size_t m = 0; m < materials.size(); ++m) {
-      std::string name = nameOf(materials[m]);
-      if (name.empty()) name = fmt::format("material_{}", m);
+      std::string name = gltf::materialName(document_, m);
       if (std::ranges::find(wanted, name) == wanted.end() || looks_.byName.contains(name)) continue;
       looks_.byName.emplace(std::move(name), lookOf(materials[m]));
     }
@@ -143,8 +137,9 @@ class SceneLooks {
     if (!view) return -1;
     const std::string_view bytes = document_.bytesOf(*view), ending = endingOf(bytes);
     if (ending.empty()) return -1;
-    const std::string name = nameOf(json);
-    const std::string file = names_.take(name.empty() ? "image" : name);
+    const Json& name = memberOf(json, "name");
+    const std::string called = name.is_string() ? name.get<std::string>() : "";
+    const std::string file = names_.take(called.empty() ? "image" : called);
     images_[image] = static_cast<Index>(looks_.images.size());
     looks_.images.push_back({fmt::format("textures/{}{}", file, ending), std::string(bytes)});
     return *images_[image];

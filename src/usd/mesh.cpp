@@ -9,15 +9,13 @@
 #include "sweepface/box.hpp"
 #include "sweepface/lod_polygons.hpp"
 
+#include "io/single.hpp"
 #include "parallel/parallel.hpp"
 #include "usd/skeleton.hpp"
 #include "usd/values.hpp"
 
 namespace sweepface::usd {
 namespace {
-
-// Half a unit in a float's last place, as a share of the number.
-constexpr double kHalfDigit = 0x1p-24;
 
 std::unexpected<Error> beyondFloats() {
   return fail("The face has numbers that are too large for the single precision of USD.");
@@ -129,7 +127,7 @@ Result<void> MeshWriter::addBlendShapes(Text& text, const std::string& path,
   std::vector<Text> shapes(rig_.targets.size(), Text(text.depth()));
   std::atomic<bool> sound = true;
   parallelFor(std::size_t{0}, shapes.size(), [&](std::size_t k) {
-    if (!addBlendShape(shapes[k], prims[k], static_cast<Index>(k), kHalfDigit * largest))
+    if (!addBlendShape(shapes[k], prims[k], static_cast<Index>(k), io::kHalfDigit * largest))
       sound = false;
   });
   if (!sound) return beyondFloats();
@@ -147,7 +145,7 @@ bool MeshWriter::addBlendShape(Text& text, const std::string& prim, Index target
   for (std::size_t v = 0; v < places_.size(); ++v) {
     const Vec3& offset = shape.positions[places_[v]];
     const Vec3 turn = options_.morphNormals ? shape.normals[places_[v]] : Vec3{};
-    if (norm(offset) <= least && norm(turn) <= kHalfDigit) continue;
+    if (norm(offset) <= least && norm(turn) <= io::kHalfDigit) continue;
     moved.push_back(static_cast<Index>(v));
     offsets.push_back(offset);
     if (options_.morphNormals) normals.push_back(turn);

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <optional>
 
 #include "sweepface/usd.hpp"
 
-#include "mesh/grid_source.hpp"
-#include "rig/source_quads.hpp"
+#include "io/rig_output.hpp"
 #include "usd/archive.hpp"
 #include "usd/mesh.hpp"
 #include "usd/skeleton.hpp"
@@ -27,16 +27,10 @@ Result<void> checkTimeCodes(const std::vector<double>& times, const UsdOptions& 
       "more time codes a second.");
 }
 
-Result<void> check(const Clip& clip, std::size_t targets, const UsdOptions& options) {
-  if (targets == 0)
+Result<void> check(const Clip& clip, const UsdOptions& options) {
+  if (clip.names.empty())
     return fail(
         "The face has no targets to animate; convert it with the meshes of its expressions.");
-  if (clip.names.size() != targets)
-    return fail(fmt::format("The clip has {} weights, but the face {} targets.", clip.names.size(),
-                            targets));
-  if (clip.times.empty()) return fail("The clip has no frames.");
-  if (clip.weights.size() != clip.times.size() * targets)
-    return fail("The clip has not as many weights as it has frames times names.");
   if (!std::ranges::all_of(clip.times, isPlausibleTime) || !increase(clip.times))
     return fail("The times of the clip do not increase, or are beyond 300 years.");
   if (!areSingle(clip.weights))
@@ -54,23 +48,16 @@ Result<void> check(const HeadTrack& head, const UsdOptions& options) {
 }
 
 Result<void> check(const Rig& rig, const UsdOptions& options) {
-  if (!rig.knowsTargets())
-    return fail("The targets of the face are not decoded yet; decode them before it is written.");
-  const std::size_t targets = rig.targets.size();
-  if (!options.weights.empty() && options.weights.size() != targets)
-    return fail(fmt::format("The expression has {} weights, but the face {} targets.",
-                            options.weights.size(), targets));
+  const io::RigOutput output{options.lod, options.grid, options.weights, options.clip};
+  if (auto ok = io::checkOutput(rig, output); !ok) return ok;
   if (!areSingle(options.weights))
     return fail("A weight is too large for the single precision of USD.");
-  if (options.lod < 0) return fail("A level of detail is 0 or more.");
-  if (options.grid)
-    if (auto ok = checkGrid(rig, *options.grid, options.lod); !ok) return ok;
   if (!(options.timeCodesPerSecond > 0 && options.timeCodesPerSecond < 1e9))
     return fail("Time codes a second are a number above 0 and below 1,000,000,000.");
   if (!(options.metersPerUnit >= 0 && options.metersPerUnit < 1e30))
     return fail("Metres a unit are a number above 0.");
   if (options.clip)
-    if (auto ok = check(*options.clip, targets, options); !ok) return ok;
+    if (auto ok = check(*options.clip, options); !ok) return ok;
   return options.head ? check(*options.head, options) : Result<void>{};
 }
 
@@ -123,17 +110,9 @@ Result<std::string> writeLayer(const Rig& rig, const UsdOptions& options, const 
 
 Result<std::string> layerOf(const Rig& rig, const UsdOptions& options, const Looks& looks) {
   if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
-  const Tessellation level(rig.surface, std::max(options.lod, 1));
-  const Tessellation& grid = options.grid ? *options.grid : level;
-  const bool knowsFaces =
-      rig.source.polygons.faceCount() > 0 && (options.lod == 0 || knowsQuads(rig));
-  if (!options.grid && knowsFaces) return writeLayer(rig, options, grid, looks);
-  Rig whole = rig;
-  if (options.grid)
-    takeMeshOf(whole, grid);
-  else
-    takeFacesOfSurface(whole);
-  return writeLayer(whole, options, grid, looks);
+  const io::OutputGrid grid(rig, options.lod, options.grid);
+  const std::optional<Rig> other = io::withOtherMesh(rig, options.lod, options.grid);
+  return writeLayer(other ? *other : rig, options, grid.get(), looks);
 }
 
 }  // namespace

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 #include "codec/utf8.hpp"
 
@@ -41,8 +39,6 @@ std::string listOf(std::span<const T> values) {
   }
   return text += ']';
 }
-
-bool isSingle(double number) { return std::abs(number) <= std::numeric_limits<float>::max(); }
 
 }  // namespace
 
@@ -82,13 +78,14 @@ std::string list(std::span<const double> numbers) { return listOf(numbers); }
 std::string list(std::span<const Vec2> points) { return listOf(points); }
 std::string list(std::span<const Vec3> points) { return listOf(points); }
 
-bool areSingle(std::span<const double> numbers) { return std::ranges::all_of(numbers, isSingle); }
 bool areSingle(std::span<const Vec2> points) {
-  return std::ranges::all_of(points, [](const Vec2& p) { return isSingle(p.x) && isSingle(p.y); });
+  return std::ranges::all_of(points,
+                             [](const Vec2& p) { return io::isSingle(p.x) && io::isSingle(p.y); });
 }
 bool areSingle(std::span<const Vec3> points) {
-  return std::ranges::all_of(
-      points, [](const Vec3& p) { return isSingle(p.x) && isSingle(p.y) && isSingle(p.z); });
+  return std::ranges::all_of(points, [](const Vec3& p) {
+    return io::isSingle(p.x) && io::isSingle(p.y) && io::isSingle(p.z);
+  });
 }
 
 }  // namespace sweepface::usd
