@@ -89,10 +89,11 @@ void addOutput(CLI::App& app, std::string& output, const std::string& descriptio
   app.add_option("-o,--output", output, description)->required()->type_name("PATH");
 }
 
-void addWeights(CLI::App& app, std::string& weights) {
-  app.add_option("--weights", weights,
-                 "The expression: targets and how much of each, e.g. jawOpen=1,eyeBlink_L=0.5; "
-                 "targets that are not named are at 0")
+CLI::Option* addWeights(CLI::App& app, std::string& weights) {
+  return app
+      .add_option("--weights", weights,
+                  "The expression: targets and how much of each, e.g. jawOpen=1,eyeBlink_L=0.5; "
+                  "targets that are not named are at 0")
       ->type_name("NAME=W,...");
 }
 

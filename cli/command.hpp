@@ -62,7 +62,7 @@ void addQuiet(CLI::App& app, bool& quiet);
 void addJson(CLI::App& app, bool& json);
 void addFace(CLI::App& app, std::string& face);
 void addOutput(CLI::App& app, std::string& output, const std::string& description);
-void addWeights(CLI::App& app, std::string& weights);
+CLI::Option* addWeights(CLI::App& app, std::string& weights);
 CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets);
 void addThreads(CLI::App& app, int& threads);

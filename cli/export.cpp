@@ -21,6 +21,7 @@ namespace {
 
 struct ExportArguments {
   std::string face, output, weights;
+  bool hasWeights = false;  // an empty list is the neutral
   int lod = 0;
   BudgetArguments budget;
   bool sourceOrder = false, quiet = false;
@@ -33,7 +34,7 @@ void addOptions(CLI::App& app, ExportArguments& a) {
   addOutput(app, a.output,
             "The file to write: .obj for one expression, .glb or .usda for the face with all its "
             "targets; or a folder, without an ending, for all of them as .obj files");
-  addWeights(app, a.weights);
+  addWeights(app, a.weights)->each([&a](const std::string&) { a.hasWeights = true; });
   CLI::Option* lod =
       addLod(app, a.lod, "Write a finer mesh: every edge of the source cut into N, 1 to 64");
   CLI::Option* order = app.add_flag(
@@ -84,26 +85,20 @@ Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& w
 
 Result<std::string> formatRig(const ExportArguments& a, const Rig& rig, const Weights& weights,
                               const Tessellation* grid) {
-  const bool shows = !a.weights.empty();
   if (isUsd(a.output)) {
     UsdOptions options = a.rigFile.usd(a.lod);
     options.grid = grid;
-    if (shows) options.weights = weights;
+    if (a.hasWeights) options.weights = weights;
     return formatUsdFor(a.output, rig, options);
   }
   GlbOptions options = a.rigFile.glb(a.lod);
   options.grid = grid;
-  if (shows) options.weights = weights;
+  if (a.hasWeights) options.weights = weights;
   return formatGlb(rig, options);
 }
 
 Result<void> writeRig(const ExportArguments& a, const Rig& rig, const Weights& weights) {
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
-  if (a.budget.isGiven() && isOfKind(a.output, ".glb") && !rig.scene.empty())
-    return fail(fmt::format(
-        "In a .glb {} goes back into its scene, whose vertices a budget cannot choose; use --lod, "
-        "name an .obj or .usda, or convert it with --bare.",
-        a.face));
   std::optional<Tessellation> grid;
   if (a.budget.isGiven()) {
     Result<Tessellation> within = gridWithin(a.budget, rig, a.output);
@@ -178,8 +173,7 @@ Result<void> checkKind(const ExportArguments& a) {
         "A budget of vertices, error or edge length is for one file; name an .obj, .glb or .usda.");
   if (isFolder && !a.weights.empty())
     return fail("A folder gets every target by itself; leave --weights out, or name an .obj file.");
-  if ((isRig || isFolder) && a.weights.empty() &&
-      (a.following.combine || !a.following.limits.empty()))
+  if ((isRig || isFolder) && !a.hasWeights && (a.following.combine || !a.following.limits.empty()))
     return fail(fmt::format(
         "A {} holds all targets, and --combine and --limits change the "
         "expression of --weights alone; {}leave them out.",

@@ -42,8 +42,7 @@ inline constexpr double kHeadTolerance = 0.001;
 /// What formatGlb writes.
 struct GlbOptions {
   Index lod = 0;  ///< 0: the source's vertices in their order; N: every edge cut into N
-  /// Instead of a level: a tessellation of the rig with a density, whose triangles are written;
-  /// only for a rig without a scene.
+  /// Instead of a level: a tessellation of the rig with a density, whose triangles are written.
   const Tessellation* grid = nullptr;
   bool morphNormals = false;  ///< normals of the morph targets too
   bool quantize = false;      ///< KHR_mesh_quantization

@@ -169,8 +169,13 @@ Density finest(Lines& lines, double vertices) {
 
 /// A tessellation may need a few more vertices than Lines::count() gives, to keep edges apart.
 Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
-  const Index fewest = Tessellation(surface, lines.coarsest()).vertexCount();
-  if (fewest > vertices) return fail("The face has ", fewest, " vertices at least; allow so many.");
+  const auto areTooMany = [&](std::int64_t fewest) {
+    return static_cast<double>(fewest) > vertices;
+  };
+  std::int64_t fewest = lines.count(lines.coarsest());
+  if (!areTooMany(fewest)) fewest = Tessellation(surface, lines.coarsest()).vertexCount();
+  if (areTooMany(fewest))
+    return fail("The face has ", fewest, " vertices at least; allow so many.");
   for (double allowed = vertices;;) {
     Density found = finest(lines, allowed);
     const double excess = Tessellation(surface, found).vertexCount() - vertices;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eval/cells.hpp"
+#include "eval/density_triangles.hpp"
 #include "eval/triangulate.hpp"
 #include "rig/source_quads.hpp"
 
@@ -155,20 +156,15 @@ class Quads {
     return between(between(at(0), at(1), i, m), between(at(3), at(2), i, m), j, n);
   }
 
-  /// Steps from a textured quad, at position `at` in its row or column, towards `goal` in that,
-  /// until a seam is in the way. The next quad is `stride` further on, beyond the corner `next`.
-  void follow(std::size_t& quad, Index& at, const Place& goal, Index stride, int next) const {
-    while (goal.value() > at + 1 && areJoined(quad, quad + stride, next)) quad += stride, ++at;
-    while (goal.value() < at && areJoined(quad - stride, quad, next)) quad -= stride, --at;
+  /// Whether the texture goes on from quad a to b, which lies beyond a's corners `next` and 2.
+  bool areJoined(std::size_t a, std::size_t b, int next) const {
+    return isTextured(a) && isTextured(b) && texcoordAt(a, next) == texcoordAt(b, 0) &&
+           texcoordAt(a, 2) == texcoordAt(b, 4 - next);
   }
 
  private:
   const Vec2& texcoordAt(std::size_t quad, int corner) const {
     return faces_.texcoords[faces_.cornerTexcoords[corners_[4 * quad + corner]]];
-  }
-  bool areJoined(std::size_t a, std::size_t b, int next) const {
-    return isTextured(a) && isTextured(b) && texcoordAt(a, next) == texcoordAt(b, 0) &&
-           texcoordAt(a, 2) == texcoordAt(b, 4 - next);
   }
 
   const Polygons& faces_;
@@ -195,45 +191,23 @@ RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
   return builder.take();
 }
 
-// A triangle takes its texture coordinates from the quad at its centroid. What lies beyond a seam
-// gets them as if that quad continued.
+// What lies beyond a seam gets its texture coordinates as if the quad before the seam continued.
 RenderMesh renderDensity(const Rig& rig, const Tessellation& grid) {
-  const Surface& surface = rig.surface;
   Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);
-  std::size_t first = 0;
   const Quads quads(rig);
-  for (Index p = 0; p < surface.patchCount(); ++p) {
-    const Index m = surface.edgesU(p), n = surface.edgesV(p);
-    const PatchMesh mesh = grid.patchMesh(p);
-    for (const auto& triangle : mesh.triangles) {
-      double u = 0, v = 0;
-      for (const Index k : triangle)
-        u += mesh.points[k].u.value() / 3, v += mesh.points[k].v.value() / 3;
-      const Index column = std::min(static_cast<Index>(u), m - 1),
-                  row = std::min(static_cast<Index>(v), n - 1);
-      const std::size_t middle = first + std::size_t(row) * m + column;
-      const auto cornerAt = [&](const PatchMesh::Point& point) {
-        if (!quads.isTextured(middle)) return builder.vertex(point.vertex);
-        std::size_t quad = middle;
-        Index i = column, j = row;
-        for (int turn = 0; turn < 2; ++turn) {  // once more, around the end of a seam
-          quads.follow(quad, i, point.u, 1, 1);
-          quads.follow(quad, j, point.v, m, 3);
-        }
-        const auto steps = [](const Place& place, Index from) {
-          return std::int64_t{place.whole - from} * place.of + place.step;
-        };
-        return builder.vertex(point.vertex, quads.texcoord(quad, steps(point.u, i), point.u.of,
-                                                           steps(point.v, j), point.v.of));
-      };
-      // In this order, as each may add a vertex.
-      const std::array corners{cornerAt(mesh.points[triangle[0]]),
-                               cornerAt(mesh.points[triangle[1]]),
-                               cornerAt(mesh.points[triangle[2]])};
-      builder.addTriangle(quads.material(middle), corners[0], corners[1], corners[2]);
+  const auto areJoined = [&](std::size_t a, std::size_t b, int next) {
+    return quads.areJoined(a, b, next);
+  };
+  forEachTriangle(rig.surface, grid, areJoined, [&](const DensityTriangle& triangle) {
+    const bool textured = quads.isTextured(triangle.middle);
+    std::array<Index, 3> corners = triangle.vertices;
+    for (int k = 0; k < 3; ++k) {
+      const auto& [quad, i, m, j, n] = triangle.places[k];
+      corners[k] = textured ? builder.vertex(corners[k], quads.texcoord(quad, i, m, j, n))
+                            : builder.vertex(corners[k]);
     }
-    first += std::size_t(m) * n;
-  }
+    builder.addTriangle(quads.material(triangle.middle), corners[0], corners[1], corners[2]);
+  });
   return builder.take();
 }
 

@@ -10,6 +10,7 @@
 #include "io/rig_output.hpp"
 #include "io/single.hpp"
 #include "mesh/check_indices.hpp"
+#include "rig/source_quads.hpp"
 
 namespace sweepface {
 namespace gltf {
@@ -25,10 +26,6 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
     return fail("The clip starts before 0, where glTF knows no time.");
   if (!(options.keyTolerance >= 0 && options.keyTolerance < 1e9))
     return fail("The tolerance of keys is a number from 0.");
-  if (options.grid && !rig.scene.empty())
-    return fail(
-        "The face goes back into its scene, which has vertices of its own; write it at a level of "
-        "detail, or leave the scene out.");
   if (!io::areSingle(options.weights))
     return fail("A weight is not a number that a glTF can hold.");
   return {};
@@ -41,11 +38,13 @@ Result<void> checkLod(const Surface& surface, Index lod) {
   return fail("The face would need more than the 4 GiB of a GLB; choose a lower level of detail.");
 }
 
+/// Whether the file has the vertices of the rig's source, or others where the grid's are.
+enum class Vertices { ofSource, ofGrid };
+
 class GlbWriter {
  public:
-  /// Vertices of the rig's source are those of the grid.
-  GlbWriter(const Rig& rig, const GlbOptions& options, const Tessellation& grid)
-      : rig_(rig), options_(options), grid_(grid), shapes_(rig, grid) {}
+  GlbWriter(const Rig& rig, const GlbOptions& options, const Tessellation& grid, Vertices vertices)
+      : rig_(rig), options_(options), grid_(grid), vertices_(vertices), shapes_(rig, grid) {}
 
   Result<std::string> write() {
     auto scene = rig_.scene.empty() ? makeScene() : sceneOf(rig_);
@@ -65,7 +64,7 @@ class GlbWriter {
  private:
   /// Makes a scene for a face that came without one.
   Result<BoundScene> makeScene() const {
-    if (options_.lod == 0) {
+    if (vertices_ == Vertices::ofSource) {
       std::vector<Vec3> positions;
       for (Index v = 0; v < static_cast<Index>(rig_.source.gridVertex.size()); ++v)
         positions.push_back(shapes_.neutral().positions[shapes_.placeOf(v)]);
@@ -90,7 +89,7 @@ class GlbWriter {
 
   Result<Places> placeVertices(Slots& slots) {
     Places places;
-    if (options_.lod == 0) {
+    if (vertices_ == Vertices::ofSource) {
       for (const Run& run : scene_.parts.runs) {
         std::vector<Index>& list = places.emplace_back();
         for (std::size_t v = run.first; v < run.first + run.count; ++v)
@@ -98,7 +97,8 @@ class GlbWriter {
       }
       return places;
     }
-    auto mesh = cutFinely(rig_, scene_, grid_, shapes_.neutral().positions);
+    auto mesh = grid_.level() == 0 ? cutByDensity(rig_, scene_, grid_)
+                                   : cutFinely(rig_, scene_, grid_, shapes_.neutral().positions);
     if (!mesh) return std::unexpected(mesh.error());
     if (auto ok = refine(scene_, *mesh, slots); !ok) return std::unexpected(ok.error());
     for (FineMesh::Run& run : mesh->runs) places.push_back(std::move(run.gridVertex));
@@ -113,7 +113,7 @@ class GlbWriter {
     if (!buffers.is_array() || buffers.empty()) buffers = Json::array({Json::object()});
     buffers[0].erase("uri");
     buffers[0]["byteLength"] = document.buffers[0].size();
-    if (options_.lod > 0)  // the data of the source's vertices are no longer needed
+    if (vertices_ == Vertices::ofGrid)  // the data of the source's vertices are no longer needed
       document.buffers[0] = gatherBinary(document, touched);
     constexpr std::size_t beyond = std::size_t{1} << 32;
     std::string bytes = formatContainer(document.json, document.buffers[0]);
@@ -126,6 +126,7 @@ class GlbWriter {
   const Rig& rig_;
   const GlbOptions& options_;
   const Tessellation& grid_;
+  Vertices vertices_;
   MorphShapes shapes_;
   BoundScene scene_;
 };
@@ -152,18 +153,23 @@ Result<std::string> formatGlb(const MeshRig& meshes) {
   if (auto ok = checkIndices(meshes); !ok)
     return fail("The meshes are at odds: " + ok.error().message + ".");
   const Rig rig = gltf::looseRig(meshes);
-  return gltf::GlbWriter(rig, {}, Tessellation(rig.surface, 1)).write();
+  return gltf::GlbWriter(rig, {}, Tessellation(rig.surface, 1), gltf::Vertices::ofSource).write();
 }
 
 Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   if (auto ok = gltf::check(rig, options); !ok) return std::unexpected(ok.error());
   if (auto ok = gltf::checkLod(rig.surface, options.lod); !ok) return std::unexpected(ok.error());
   const io::OutputGrid grid(rig, options.lod, options.grid);
-  std::optional<Rig> other = io::withOtherMesh(rig, options.lod, options.grid);
-  // A scene's vertices are those of the source in their order.
+  // A scene's vertices are those of the source in their order, and only by its quads can it be cut.
+  const bool keepsScene = !rig.scene.empty() && rig.source.ownOrder && knowsQuads(rig);
+  const bool cuts = options.lod > 0 || (options.grid && keepsScene);
+  std::optional<Rig> other =
+      io::withOtherMesh(rig, options.lod, keepsScene ? nullptr : options.grid);
   if (!other && !rig.scene.empty() && !rig.source.ownOrder) other = rig;
   if (other) other->scene.clear();
-  return gltf::GlbWriter(other ? *other : rig, options, grid.get()).write();
+  return gltf::GlbWriter(other ? *other : rig, options, grid.get(),
+                         cuts ? gltf::Vertices::ofGrid : gltf::Vertices::ofSource)
+      .write();
 }
 
 }  // namespace sweepface

@@ -6,14 +6,26 @@
 
 namespace sweepface::gltf {
 
-Mix Mix::between(Index from, Index to, Index step, Index steps) {
+Mix Mix::between(Index from, Index to, std::int64_t step, Index steps) {
   if (step == 0 || from == to) return at(from);
   if (step == steps) return at(to);
   if (from > to) return between(to, from, steps - step, steps);
   return {{from, to, to, from}, static_cast<double>(step) / steps, 0};
 }
 
+Mix Mix::within(const std::array<Index, 4>& c, std::int64_t i, Index m, std::int64_t j, Index n) {
+  if (i >= 0 && i <= m && j == 0) return between(c[0], c[1], i, m);
+  if (i >= 0 && i <= m && j == n) return between(c[3], c[2], i, m);
+  if (j >= 0 && j <= n && i == 0) return between(c[0], c[3], j, n);
+  if (j >= 0 && j <= n && i == m) return between(c[1], c[2], j, n);
+  return {c, static_cast<double>(i) / m, static_cast<double>(j) / n};
+}
+
 namespace {
+
+Mix held(const Mix& mix) {
+  return {mix.corners, std::clamp(mix.u, 0.0, 1.0), std::clamp(mix.v, 0.0, 1.0)};
+}
 
 Index nearest(const Mix& mix) {
   return mix.corners[mix.u < 0.5 ? (mix.v < 0.5 ? 0 : 3) : (mix.v < 0.5 ? 1 : 2)];
@@ -38,7 +50,7 @@ class Influences {
       each(mix.corners[0], [&](Influence i) { sum.push_back(i); });
       return sum;
     }
-    const std::array<double, 4> shares = mix.weights();
+    const std::array<double, 4> shares = held(mix).weights();
     for (int k = 0; k < 4; ++k)
       each(mix.corners[k], [&](Influence i) { add(sum, {i.joint, shares[k] * i.weight}); });
     return strongest(std::move(sum));
@@ -124,31 +136,34 @@ Result<std::vector<std::vector<double>>> decodeAll(const Document& document,
 
 }  // namespace
 
-Result<Column> mixed(const Document& document, const Accessor& attribute,
+Result<Column> mixed(const Document& document, const Accessor& attribute, Meaning meaning,
                      std::span<const Mix> places) {
   const auto values = decode(document, attribute);
   if (!values) return std::unexpected(values.error());
   const std::size_t width = attribute.components();
-  const bool whole = attribute.type != Component::float32 && !attribute.normalized;
+  const bool isTexcoord = meaning == Meaning::texcoord;
+  const bool isKind = !isTexcoord && attribute.type != Component::float32 && !attribute.normalized;
   std::vector<double> result;
   result.reserve(places.size() * width);
   for (const Mix& mix : places) {
-    const std::array<double, 4> shares = mix.weights();
+    const std::array<double, 4> shares = (isTexcoord ? mix : held(mix)).weights();
     for (std::size_t c = 0; c < width; ++c) {
       const auto value = [&](Index vertex) {
         return (*values)[static_cast<std::size_t>(vertex) * width + c];
       };
-      if (whole || mix.isVertex()) {
+      if (isKind || mix.isVertex()) {
         result.push_back(value(nearest(mix)));
         continue;
       }
       double sum = 0;
       for (int k = 0; k < 4; ++k) sum += shares[k] * value(mix.corners[k]);
-      // Rounding must not lead out of -1 to 1.
-      result.push_back(attribute.normalized ? std::clamp(sum, -1.0, 1.0) : sum);
+      result.push_back(sum);
     }
   }
-  return pack(result, width, attribute.type, attribute.normalized);
+  Column column = pack(result, width, attribute.type, attribute.normalized);
+  // Integers end at their type's bounds: by rounding, or beyond a quad.
+  if (attribute.type != Component::float32) column.sound = true;
+  return column;
 }
 
 Result<SkinColumns> mixedSkin(const Document& document, const SkinAttributes& attributes,

@@ -6,6 +6,7 @@
 
 #include "gltf/fine_mesh.hpp"
 #include "gltf/same_vertices.hpp"
+#include "gltf/skins.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -69,7 +70,8 @@ class Refiner {
       }
       const auto [value, isNew] = values_.try_emplace(Place{run, accessor->index, 0});
       if (!isNew) continue;
-      auto column = mixed(scene_.document, *accessor, mesh_.runs[run].places);
+      const auto meaning = name.starts_with("TEXCOORD_") ? Meaning::texcoord : Meaning::other;
+      auto column = mixed(scene_.document, *accessor, meaning, mesh_.runs[run].places);
       if (!column) return std::unexpected(column.error());
       bytes_ += column->bytes.size();
       if (bytes_ > mostBytes)
@@ -85,17 +87,17 @@ class Refiner {
   Result<SkinAttributes> takeSkin(Json& attributes) const {
     SkinAttributes skin;
     std::set<std::string> paired;
-    for (int set = 0;; ++set) {
-      const std::pair names{fmt::format("JOINTS_{}", set), fmt::format("WEIGHTS_{}", set)};
-      if (!find(attributes, names.first) || !find(attributes, names.second)) break;
-      for (const auto& [name, list] :
-           {std::pair{names.first, &skin.joints}, std::pair{names.second, &skin.weights}}) {
-        const auto accessor = accessorAt(scene_.document, attributes[name].get<std::size_t>());
+    const std::size_t accessors = scene_.document.list("accessors").size();
+    for (const auto& [joints, weights] : jointSets(attributes, accessors)) {
+      for (const std::string_view kind : {"JOINTS", "WEIGHTS"})
+        paired.insert(fmt::format("{}_{}", kind, skin.joints.size()));
+      for (const auto& [index, list] :
+           {std::pair{joints, &skin.joints}, std::pair{weights, &skin.weights}}) {
+        const auto accessor = accessorAt(scene_.document, index);
         if (!accessor) return std::unexpected(accessor.error());
         if (accessor->components() != 4)
           return fail("A mesh of the face's scene has joints that are not in fours.");
         list->push_back(*accessor);
-        paired.insert(name);
       }
     }
     eraseSkin(attributes, paired);

@@ -57,11 +57,25 @@ TEST_F(ToolGlb, TakesTheOptionsOfExport) {
   EXPECT_EQ(contents(folder / "b.glb"), contents(folder / "c.glb"));
 }
 
+TEST_F(ToolGlb, ShowsTheNeutralForAnEmptyListOfWeights) {
+  Glb source = smallFace();
+  source.json["meshes"][0]["weights"] = {0.5, 0.25};
+  folder.file("face.glb", source.bytes());
+  ASSERT_EQ(run("convert face.glb -o face.sweep --tolerance 0.05").code, 0);
+  ASSERT_EQ(run("export face.sweep -o same.glb").code, 0);
+  EXPECT_EQ(glb("same.glb").json["meshes"][0]["weights"], Json({0.5, 0.25}));
+  ASSERT_EQ(run("export face.sweep -o none.glb --weights ''").code, 0);
+  EXPECT_EQ(glb("none.glb").json["meshes"][0]["weights"], Json({0.0, 0.0}));
+}
+
 TEST_F(ToolGlb, GoesOnWithItsScene) {
   folder.file("face.glb", headAndHat().bytes());
   ASSERT_EQ(run("convert face.glb -o face.sweep --tolerance 0.05").code, 0);
   ASSERT_EQ(run("export face.sweep -o out.glb").code, 0);
   EXPECT_EQ(glb("out.glb").json["nodes"], headAndHat().json["nodes"]);
+  ASSERT_EQ(run("export face.sweep -o far.glb --error 0.01").code, 0);
+  EXPECT_EQ(glb("far.glb").json["nodes"], headAndHat().json["nodes"]);
+  EXPECT_NE(glb("far.glb").indices().size(), glb("out.glb").indices().size());
   ASSERT_EQ(run("convert face.glb -o bare.sweep --tolerance 0.05 --bare").code, 0);
   ASSERT_EQ(run("export bare.sweep -o out.glb").code, 0);
   EXPECT_EQ(glb("out.glb").json["nodes"].size(), 1u);

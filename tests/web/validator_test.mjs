@@ -54,7 +54,7 @@ for (const glb of ['head', 'full_sparse'])
     const sweep = inWork(`${glb}.sweep`), file = inWork(`${glb}.glb`);
     sweepface('convert', path.join(realFaces, 'ictface', 'glb', `${glb}.glb`), '-o', sweep,
               '--tolerance', '0.05', '-q');
-    for (const options of [[], ['--quantize', '--morph-normals'], ['--lod', '2']]) {
+    for (const options of [[], ['--quantize', '--morph-normals'], ['--lod', '2'], ['--error', '0.02']]) {
       sweepface('export', sweep, '-o', file, '-q', ...options);
       await assertValid(file);
     }

@@ -1,0 +1,211 @@
+// GLB files of a budget that go back into the scene that their face came with.
+#include <set>
+
+#include "gltf/placed_faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// How long edges may be: the sheet's own are one unit long.
+constexpr double kCoarse = 100, kFine = 0.3;
+
+/// The rig of a sheet that is one patch, seams and all.
+Rig inOnePatch(const Glb& glb) { return converted(glb, 0.5); }
+
+/// Holds the rig, as the tessellation points into its surface.
+struct Budgeted {
+  Budgeted(Rig given, double length)
+      : rig(std::move(given)),
+        grid(rig.surface,
+             densityFor(rig.surface, blend(rig, {}), {Budget::Kind::edgeLength, length}).value()) {}
+  Budgeted(const Budgeted&) = delete;
+
+  Written written(GlbOptions options = {}) const {
+    options.grid = &grid;
+    return write(rig, options);
+  }
+
+  Rig rig;
+  Tessellation grid;
+};
+
+std::set<std::array<float, 3>> asSet(const std::vector<Vec3>& positions) {
+  std::set<std::array<float, 3>> set;
+  for (const Vec3& p : positions)
+    set.insert({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  return set;
+}
+
+class FacesInScenes : public ::testing::TestWithParam<Face> {
+ protected:
+  /// The face with the scene of the GLB that its meshes make.
+  static Rig inScene() {
+    const Result<std::string> bytes = formatGlb(GetParam().rig);
+    if (!bytes) return ADD_FAILURE() << bytes.error().message, Rig{};
+    Result<RigSource> source = parseGltf(*bytes, "face.glb", {});
+    if (!source) return ADD_FAILURE() << source.error().message, Rig{};
+    Rig rig = converted(source->rig, 0.2);
+    rig.scene = std::move(source->scene);
+    return rig;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(BudgetWriter, FacesInScenes, eachFace(), faceName);
+
+TEST_P(FacesInScenes, HaveTheTrianglesOfTheTessellation) {
+  for (const double length : {100.0, 0.7}) {
+    const Budgeted face(inScene(), length);
+    const Written glb = face.written();
+    const std::vector<Loop> triangles = weldedTriangles(glb);
+    EXPECT_EQ(triangles.size(), face.grid.triangles().size());
+    std::vector<Loop> expected;
+    for (const auto& [a, b, c] : face.grid.triangles()) expected.push_back({a, b, c});
+    EXPECT_EQ(topologyOf(triangles).boundaryLoops, topologyOf(expected).boundaryLoops);
+    EXPECT_EQ(asSet(glb.vectors(glb.attribute("POSITION"))),
+              asSet(face.grid.positions(blend(face.rig, {}))));
+  }
+}
+
+TEST_P(FacesInScenes, MoveAsTheSurfaceDoes) {
+  const Budgeted face(inScene(), 0.7);
+  const Written glb = face.written({.morphNormals = true});
+  const std::vector<Vec3> positions = glb.vectors(glb.attribute("POSITION"));
+  for (std::size_t k = 0; k < face.rig.targets.size(); ++k) {
+    std::vector<Vec3> moved = glb.vectors(glb.morph(k));
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += positions[v];
+    const std::vector<Vec3> expected = face.grid.positions(blend(face.rig, oneTarget(face.rig, k)));
+    for (const Vec3& p : moved) {
+      const auto nearest =
+          std::ranges::min(expected, {}, [&](const Vec3& q) { return norm(p - q); });
+      EXPECT_LE(norm(p - nearest), 1e-6 * largest(expected));
+    }
+  }
+}
+
+TEST(BudgetWriter, MixesTextureCoordinatesAndContinuesThemBeyondSeams) {
+  for (const double length : {kCoarse, kFine}) {
+    const Written glb = Budgeted(inOnePatch(cutFace()), length).written();
+    for (std::size_t p = 0; p < 2; ++p) {
+      expectWhole(glb, p);
+      const std::vector<Vec2> at = placesIn(glb, p);
+      const std::vector<Vec3> surface = glb.vectors(glb.attribute("POSITION", 0, p));
+      const std::vector<double> t = glb.numbers(glb.attribute("TEXCOORD_0", 0, p));
+      for (const Index v : glb.indices(0, p)) {
+        EXPECT_NEAR(t[2 * v], p == 0 ? at[v].x / 2 : at[v].y / 4 + 0.5, 1e-6);
+        EXPECT_NEAR(t[2 * v + 1], p == 0 ? at[v].y / 2 : at[v].x / 4, 1e-6);
+        EXPECT_NEAR(at[v].x, surface[v].x, 0.2);
+        EXPECT_NEAR(at[v].y, surface[v].y, 0.2);
+      }
+    }
+  }
+}
+
+TEST(BudgetWriter, SharesVerticesWhereNoSeamIs) {
+  Glb source = smallFace();
+  addPlaces(source);
+  for (const double length : {kCoarse, kFine}) {
+    const Budgeted face(inOnePatch(source), length);
+    const Written glb = face.written();
+    EXPECT_EQ(glb.accessor(glb.attribute("POSITION"))["count"], face.grid.vertexCount());
+    EXPECT_EQ(glb.primitive()["material"], 0);
+  }
+}
+
+TEST(BudgetWriter, HoldsColorsBeyondSeams) {
+  Glb source = cutFace();
+  std::vector<Vec3> colors;
+  for (const Vec3& p : sheetPositions()) colors.push_back({p.x / 2, p.y / 2, 1});
+  for (std::size_t p = 0; p < 2; ++p)
+    source.primitive(0, p)["attributes"]["COLOR_0"] = source.addVectors(colors);
+  const Written glb = Budgeted(inOnePatch(source), kCoarse).written();
+  double least = 1;
+  for (std::size_t p = 0; p < 2; ++p) {
+    const std::vector<Vec3> found = glb.vectors(glb.attribute("COLOR_0", 0, p));
+    const std::vector<Vec2> at = placesIn(glb, p);
+    for (const Index v : glb.indices(0, p)) {
+      const bool isBeyond = p == 0 ? at[v].x > 1 : at[v].x < 1;
+      EXPECT_NEAR(found[v].x, isBeyond ? 0.5 : at[v].x / 2, 1e-6);
+      EXPECT_NEAR(found[v].y, at[v].y / 2, 1e-6);
+      EXPECT_NEAR(found[v].z, 1, 1e-6);
+      if (isBeyond) least = std::min(least, found[v].x);
+    }
+  }
+  EXPECT_EQ(least, 0.5) << "some triangle reaches beyond the seam";
+}
+
+TEST(BudgetWriter, TiesVerticesToTheJointsWhereTheyLie) {
+  for (const double length : {kCoarse, kFine}) {
+    const Written glb = Budgeted(inOnePatch(skinnedFace(5126)), length).written();
+    expectWhole(glb, 0);
+    const auto joints = glb.stored(glb.attribute("JOINTS_0"));
+    const auto weights = glb.numbers(glb.attribute("WEIGHTS_0"));
+    const std::vector<Vec2> at = placesIn(glb);
+    for (std::size_t v = 0; v < at.size(); ++v) {
+      double sum = 0, common = 0, own = 0, x = 0;
+      for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
+        sum += weights[k];
+        if (joints[k] == 9) common += weights[k];
+        if (joints[k] < 9) own += weights[k], x += weights[k] * std::fmod(joints[k], 3);
+      }
+      EXPECT_NEAR(sum, 1, 1e-6);
+      EXPECT_GT(common, 0.39);
+      if (at[v].x == std::round(at[v].x)) {
+        EXPECT_NEAR(x / own, at[v].x, 0.01);
+      }
+    }
+  }
+}
+
+TEST(BudgetWriter, KeepsPrimitivesThatNoTriangleIsLeftFor) {
+  Glb source = smallFace();
+  const std::vector<std::uint16_t> all = sheetIndices();
+  std::vector<std::uint16_t> diagonal, rest;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    (k / 6 == 0 || k / 6 == 3 ? diagonal : rest).push_back(all[k]);
+  Json first = source.primitive(), second = first;
+  first["indices"] = source.addIndices(diagonal), second["indices"] = source.addIndices(rest);
+  source.json["meshes"][0]["primitives"] = Json::array({first, second});
+  const Written glb = Budgeted(inOnePatch(source), kCoarse).written();
+  std::multiset<std::size_t> counts;
+  for (std::size_t p = 0; p < 2; ++p) {
+    const std::vector<Index> indices = glb.indices(0, p);
+    counts.insert(std::set<Index>(indices.begin(), indices.end()).size());
+  }
+  EXPECT_EQ(counts, (std::multiset<std::size_t>{1, 6}))
+      << "one of them shows a point, the other both triangles, as a seam parts them";
+}
+
+TEST(BudgetWriter, TurnsTrianglesOverWhereTheNodeMirrors) {
+  Glb source = smallFace();
+  source.json["nodes"][0]["scale"] = {-1, 1, 1};
+  for (const double length : {kCoarse, kFine}) {
+    const Written glb = Budgeted(inOnePatch(source), length).written();
+    const std::vector<Vec3> p = glb.vectors(glb.attribute("POSITION"));
+    const std::vector<Index> t = glb.indices();
+    for (std::size_t k = 0; k < t.size(); k += 3)
+      EXPECT_GT(cross(p[t[k + 1]] - p[t[k]], p[t[k + 2]] - p[t[k]]).z, 0);
+  }
+}
+
+TEST(BudgetWriter, LeavesTheRestOfTheSceneAlone) {
+  Glb source = skinnedFace(5126);
+  source.json["nodes"][0]["extras"] = {{"kept", true}};
+  const Budgeted face(inOnePatch(source), kFine);
+  const Written glb = face.written({.quantize = true, .weights = {0.25, 0}});
+  EXPECT_EQ(glb.json["skins"][0]["joints"], source.json["skins"][0]["joints"]);
+  EXPECT_EQ(glb.json["nodes"][0]["extras"]["kept"], true);
+  EXPECT_EQ(glb.json["meshes"][0]["weights"], Json({0.25, 0}));
+  EXPECT_EQ(glb.accessor(glb.attribute("POSITION"))["componentType"], 5122);
+}
+
+/// Without its order or quads a face cannot go back, and is written as one without a scene.
+TEST(BudgetWriter, LeavesOutASceneThatDoesNotKnowItsVertices) {
+  Rig rig = inOnePatch(cutFace());
+  rig.source.quadCorners.clear();
+  const Written glb = Budgeted(std::move(rig), kFine).written();
+  EXPECT_EQ(glb.json["nodes"][0]["name"], "face");
+}
+
+}  // namespace
+}  // namespace sweepface
