@@ -23,7 +23,7 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
   const auto painted = parseRegions(*text, file);
   if (!painted) return std::unexpected(painted.error());
   if (painted->empty() && !own)
-    return fail(fmt::format("{} has no 'regions'; see docs/regions.md.", file));
+    return fail(fmt::format("{} has no regions; see docs/regions.md.", file));
   auto regions = paintRegions(rig, *painted);
   if (!regions) return fail(fmt::format("{}: {}", file, regions.error().message));
   return regions;

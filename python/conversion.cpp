@@ -21,6 +21,8 @@ std::shared_ptr<Rig> converted(const RigSource& meshes, double tolerance, bool p
   options.pack = pack || !maxBytes.is_none();
   if (!options.pack && normalTolerance > 0)
     throw Failure("normal_tolerance is for packed rigs; give pack or max_bytes as well.");
+  if (!options.pack && textureBits != ConvertOptions{}.textureBits)
+    throw Failure("texture_bits is for packed rigs; give pack or max_bytes as well.");
   const std::size_t most =
       maxBytes.is_none() ? 0 : as<std::size_t>(maxBytes, "max_bytes", "a number of bytes");
   if (most == 0 && !maxBytes.is_none()) throw Failure("max_bytes must be at least 1.");

@@ -56,7 +56,10 @@ Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vert
   checkLevel(level);
   EvaluatorOptions options;
   options.level = budget ? 1 : level, options.normals = normals;
-  if (!tolerance.is_none()) options.tolerance = numberFrom(tolerance, "The tolerance");
+  if (!tolerance.is_none()) {
+    options.tolerance = numberFrom(tolerance, "The tolerance");
+    if (options.tolerance == 0) throw Failure("The tolerance must be greater than 0.");
+  }
   std::optional<std::vector<Region>> regions;
   if (!listed.is_none()) regions = dividedBy(*rig, listed);
   const Released others;

@@ -87,6 +87,8 @@ class RigFileOptions {
 void saveGlb(const Rig& rig, const std::filesystem::path& path, const RigFile& given, bool quantize,
              double keyTolerance) {
   checkKind(path, ".glb");
+  if (keyTolerance > 0 && !given.clip)
+    throw Failure("key_tolerance is for the keys of a clip; give one.");
   const RigFileOptions file(rig, given);
   auto options = file.make<GlbOptions>();
   options.quantize = quantize, options.keyTolerance = keyTolerance;
@@ -94,12 +96,15 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, const RigFile& g
 }
 
 void saveUsd(const Rig& rig, const std::filesystem::path& path, const RigFile& given,
-             double timeCodesPerSecond, double metersPerUnit, bool zUp) {
+             const py::object& timeCodesPerSecond, double metersPerUnit, bool zUp) {
+  if (!timeCodesPerSecond.is_none() && !given.clip)
+    throw Failure("time_codes_per_second is for the frames of a clip; give one.");
   const bool isArchive = extensionOf(path) == ".usdz";
   if (!isArchive && extensionOf(path) != ".usd") checkKind(path, ".usda");
   const RigFileOptions file(rig, given);
   auto options = file.make<UsdOptions>();
-  options.timeCodesPerSecond = timeCodesPerSecond;
+  if (!timeCodesPerSecond.is_none())
+    options.timeCodesPerSecond = numberFrom(timeCodesPerSecond, "time_codes_per_second");
   options.metersPerUnit = metersPerUnit, options.zUp = zUp;
   released([&] {
     return valueOf(writeFile(path, valueOf((isArchive ? formatUsdz : formatUsd)(rig, options))));
@@ -219,9 +224,10 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr, "key_tolerance"_a = 0,
           "head"_a = false, "pivot"_a = py::none(),
           "Writes a GLB with the targets as morph targets, in the scene that came with the rig, if "
-          "one did. level 0: the source's vertices; N: every edge cut into N. Instead, if there is "
-          "no scene, a budget: at most so many vertices, no longer edges along curves, or no edge "
-          "further than error from the surface. morph_normals writes normals of the targets, too; "
+          "one did. level 0: the source's vertices; N: every edge cut into N. Instead, a budget: "
+          "at "
+          "most so many vertices, no longer edges along curves, or no edge further than error from "
+          "the surface. morph_normals writes normals of the targets, too; "
           "quantize stores whole numbers (KHR_mesh_quantization); weights are those at which the "
           "face is shown. A clip becomes an animation, in as few keys as keep its weights within "
           "key_tolerance, if that is given. With head, the whole model turns by the clip's angles "
@@ -231,18 +237,20 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           [](const Rig& r, const std::filesystem::path& path, Index level,
              const py::object& vertices, const py::object& edgeLength, const py::object& error,
              bool morphNormals, const py::object& weights, const Clip* clip,
-             double timeCodesPerSecond, bool head, const py::object& pivot, double metersPerUnit,
-             bool zUp) {
+             const py::object& timeCodesPerSecond, bool head, const py::object& pivot,
+             double metersPerUnit, bool zUp) {
             saveUsd(r, path,
                     {level, vertices, edgeLength, error, morphNormals, weights, clip, head, pivot},
                     timeCodesPerSecond, metersPerUnit, zUp);
           },
           "path"_a, py::kw_only(), "level"_a = 0, "vertices"_a = py::none(),
           "edge_length"_a = py::none(), "error"_a = py::none(), "morph_normals"_a = false,
-          "weights"_a = py::none(), "clip"_a = nullptr, "time_codes_per_second"_a = 24,
+          "weights"_a = py::none(), "clip"_a = nullptr, "time_codes_per_second"_a = py::none(),
           "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
           "Writes a .usda, or a .usdz with the images of its materials, with the targets as blend "
-          "shapes of UsdSkel. A clip becomes a time sample for each of its frames. meters_per_unit "
+          "shapes of UsdSkel. A clip becomes a time sample for each of its frames, at 24 time "
+          "codes "
+          "a second if time_codes_per_second is not given. meters_per_unit "
           "0: 1 for a rig with the scene of a GLB, otherwise what its units are, or 0.01. The rest "
           "is as in save_glb.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),

@@ -1,7 +1,7 @@
 // Plays .sweep faces in browsers and in Node.
 import {DRIVE_SIZE, secondsOf, writeDrive} from './sweepface_drives.js';
 import {open, Shared} from './sweepface_file.js';
-import {isFloats, kindOf, known, MOST, passed, told} from './sweepface_values.js';
+import {isFloats, kindOf, known, MOST, overlap, passed, told} from './sweepface_values.js';
 import {MemoryError} from './sweepface_wasm.js';
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
@@ -148,6 +148,8 @@ export class Sweepface {
       if (out.length < count)
         throw new RangeError(`There must be room for ${vertexCount} vertices: ${count} numbers, not ${out.length}.`);
     }
+    if (positions && normals && overlap(positions, normals, count))
+      throw new RangeError('Positions and normals must be written to different places.');
     runtime.words(memory.vectors, 4).set([positions ? memory.positions : 0, 0, normals ? memory.normals : 0, 0]);
     runtime.check(runtime.wasm.sweepface_face_update(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
     positions?.set(runtime.floats(memory.positions, count));

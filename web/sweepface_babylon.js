@@ -42,6 +42,11 @@ function nameIn(source) {
   return path.split('/').pop() || 'face';
 }
 
+function checkScene(scene) {
+  if (scene && typeof scene.getEngine !== 'function')
+    throw new TypeError('A mesh takes the scene that it belongs to, and what else it takes after that.');
+}
+
 /** What a clone has in common with its original, besides place, pivot and parent. */
 const COPIED = [
   'advancesWithScene', 'isVisible', 'visibility', 'isPickable', 'receiveShadows', 'renderingGroupId', 'layerMask',
@@ -66,6 +71,7 @@ export class SweepfaceMesh extends Mesh {
 
   /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load. */
   static async load(source, scene, options = {}) {
+    checkScene(scene);
     const usual = {...options}, isUrl = typeof source === 'string' || source instanceof URL;
     if (usual.regions) usual.regions = ownRegions(usual.regions);
     if (isUrl) usual.name ??= String(source);
@@ -82,6 +88,7 @@ export class SweepfaceMesh extends Mesh {
   /** The mesh disposes of the face with itself. Materials are made for its parts if none is given. */
   constructor(name, scene, face, material) {
     if (typeof face?.evaluate !== 'function') throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
+    checkScene(scene);
     const moving = face.advance(0);  // throws if it was disposed of, before the scene has a mesh of it
     super(name, scene);
     this.face = face;
@@ -153,6 +160,7 @@ export class SweepfaceMesh extends Mesh {
 
   moveTo(goals, drive, region) {
     this.face.moveTo(goals, drive, region);
+    this.advance(0);  // cuts are there at once
     this.#moving = true;
   }
 
@@ -179,6 +187,8 @@ export class SweepfaceMesh extends Mesh {
   update(seconds = 0) {
     this.#pass(seconds);
     if (this.isDisposed() || !this.#stale) return;
+    if (this.getTotalVertices() !== this.face.vertexCount)
+      throw new Error(`The geometry must have the ${this.face.vertexCount} vertices of the face; change a copy of it.`);
     this.#evaluate();
     for (const {kind, values} of this.#vectors) this.updateVerticesData(kind, values);
     this.refreshBoundingInfo();

@@ -5,7 +5,8 @@ import {compile, instantiate, isCompiled, isGiven, MemoryError, Runtime, UNSAID}
 
 /** The budgets that may choose a level of detail, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
-const OPTIONS = ['lod', ...BUDGETS, 'name', 'arcs', 'combine', 'eyes', 'regions', 'wasm'];
+const SWITCHES = ['arcs', 'combine', 'eyes'];
+const OPTIONS = ['lod', ...BUDGETS, 'name', ...SWITCHES, 'regions', 'wasm'];
 
 /** What targets may follow, as flags of the C interface. */
 const FOLLOW = {arcs: 1, combine: 2};
@@ -14,6 +15,9 @@ const FOLLOW = {arcs: 1, combine: 2};
 function read(options) {
   const given = known(options, OPTIONS, 'Sweepface.load');
   const {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
+  for (const key of SWITCHES)
+    if (![undefined, null, true, false].includes(given[key]))
+      throw new TypeError(`The option '${key}' is true or false, not ${told(given[key])}.`);
   const details = ['lod', ...BUDGETS].filter((key) => given[key] !== undefined);
   if (details.length > 1)
     throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);

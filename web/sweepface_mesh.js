@@ -149,6 +149,7 @@ export class FaceMesh extends Mesh {
   moveTo(goals, drive, region) {
     this.#takeInfluences();
     this.face.moveTo(goals, drive, region);
+    this.advance(0);  // cuts are there at once
     this.#moving = true;
   }
 

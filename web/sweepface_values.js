@@ -10,6 +10,10 @@ export const isWeight = (value) => Number.isFinite(value) && Math.abs(value) <= 
 /** Whether it is an array of floats or doubles, the number types of the module. */
 export const isFloats = (it) => ['Float32Array', 'Float64Array'].includes(kindOf(it));
 
+/** Whether the first `count` numbers of two arrays have memory in common. */
+export const overlap = (a, b, count) => a.buffer === b.buffer &&
+  a.byteOffset < b.byteOffset + count * b.BYTES_PER_ELEMENT && b.byteOffset < a.byteOffset + count * a.BYTES_PER_ELEMENT;
+
 /** How messages call a value that is not the number it should be. */
 export function told(value) {
   if (typeof value === 'string') return `the text '${value}'`;

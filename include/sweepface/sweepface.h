@@ -107,7 +107,7 @@ enum sweepface_followings {
   SWEEPFACE_COMBINE = 2 /* A_B goes by the product of A and B, A_50 stands in for A at 0.5; weights
                            that you set for A_B and A_50 are ignored */
 };
-/* `what` is a sum of the above; 0: none, as after loading. */
+/* `what` is a sum of the above; 0: none, as after loading. Refused beyond 4096 targets. */
 SWEEPFACE_API sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what);
 
 /* The corners of the bounding box of the neutral's vertices, including those of no face, in model
@@ -190,7 +190,8 @@ SWEEPFACE_API const float* sweepface_mesh_texcoords(const sweepface_mesh* mesh);
 
 /* Triangles of one material. */
 typedef struct sweepface_part {
-  const char* material; /* UTF-8; "" if the source named none. Belongs to the mesh. */
+  const char* material; /* as the source has it, in general UTF-8; "" if it named none. Belongs to
+                           the mesh. */
   uint32_t first_triangle;
   uint32_t triangle_count;
 } sweepface_part;
@@ -260,7 +261,7 @@ SWEEPFACE_API sweepface_status sweepface_face_box(sweepface_face* face, double l
 
 /* Builds the tables that move tangents and the normals that go with them, now rather than when they
  * are first asked for. Takes as long as sweepface_mesh_prepare with normals. Fails if the mesh has
- * triangles but no texture coordinates. */
+ * no texture coordinates, unless it is of points. */
 SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_mesh* mesh);
 
 /* Writes the tangent space of normal maps at the first `count` vertices under the face's weights:
@@ -270,7 +271,8 @@ SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_m
  * w * cross(normal, tangent) goes along v, upwards. These normals are as close to the surface's own
  * as those of sweepface_face_evaluate, but not the same: where the skin folds sharply they may be
  * tens of degrees apart, so take both from here. Allocates nothing once tangents are prepared.
- * Fails if the mesh has triangles but no texture coordinates. */
+ * Vertices that repeat points get tangents perpendicular to normals that they share only if both are
+ * asked for at once. Fails if the mesh has no texture coordinates, unless it is of points. */
 SWEEPFACE_API sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
                                                        sweepface_vectors normals,
                                                        sweepface_vectors tangents);

@@ -76,6 +76,9 @@ sweepface_status sweepface_mesh_create_at(const sweepface_rig* rig, const double
   if (static_cast<double>(count) > kMostVertices)
     return refuse("A mesh may have at most ", static_cast<int>(kMostVertices), " points, not ",
                   count, ".");
+  if (static_cast<double>(rig->rig->surface.wireframe().quadCount()) > kMostVertices)
+    return refuse("The face has more than ", static_cast<int>(kMostVertices),
+                  " quads, too many to look for points on them.");
   std::vector<Vec3> places;
   for (std::size_t k = 0; k < count; ++k, points += 3)
     places.push_back({points[0], points[1], points[2]});

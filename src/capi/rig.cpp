@@ -113,6 +113,10 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
   if (const auto status = needTargets(*rig->rig)) return status;
   if (rig->following.eyes)
     return refuse("What follows must be said before eyes turn; load the rig again.");
+  constexpr std::size_t kMostShown = 4096;  // the time that names take grows with their square
+  if (what && rig->shown > kMostShown)
+    return refuse("Weights follow in faces of up to ", kMostShown, " targets, not of ", rig->shown,
+                  ".");
   Rig& made = *rig->rig;
   made.targets.resize(rig->shown);
   std::vector<Follower> followers;

@@ -167,7 +167,11 @@ std::vector<V> readVectors(Reader& in, std::size_t count, Precision precision) {
   std::vector<V> vectors(count);
   for (std::size_t k = 0; k < count; ++k) {
     if (!mask.empty() && !mask[k]) continue;
-    for (double& x : value) x = isDouble ? in.f64() : in.f32();
+    for (double& x : value) {
+      x = isDouble ? in.f64() : in.f32();
+      if (std::abs(x) > std::numeric_limits<float>::max())
+        in.refuse("a coordinate is beyond single precision");
+    }
     assign(vectors[k], value);
   }
   return vectors;

@@ -17,6 +17,7 @@ constexpr int kMostTries = 12, kMostBracketHalvings = 4, kMostFailures = 4;
 constexpr double kCloseEnough = 0.98;  // of the bytes allowed
 constexpr double kPower = 0.8;         // bytes fall with this power of the tolerance
 constexpr double kAway = 4;            // factor away from a first tolerance that cannot be met
+constexpr double kCoarsest = 0.125;    // of the diagonal: what is tried before giving up
 
 struct Try {
   double tolerance = 0;
@@ -40,9 +41,9 @@ struct Bracket {
   }
 };
 
-/// Whether two tries show that no tolerance will do, however coarse, because the bytes that do not
-/// depend on it are too many by themselves. What is left to save is estimated by kPower, with a
-/// factor of three to be safe.
+/// Whether two tries suggest that no tolerance will do, however coarse, because the bytes that do
+/// not depend on it are too many by themselves. (Those of small meshes go up and down too much.)
+/// What is left to save is estimated by kPower, with a factor of three to be safe.
 bool isHopeless(const Try& finer, const Try& coarser, std::size_t mostBytes) {
   if (finer.bytes == SIZE_MAX || coarser.bytes == SIZE_MAX || coarser.bytes >= finer.bytes)
     return false;
@@ -72,6 +73,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   Bracket bracket;
   Try smallest{0, SIZE_MAX};
   int failures = 0;
+  bool isLast = false;  // whether only the coarsest tolerance can still fit
   // The number of tries is not known in advance: each gets a share of the progress that is left.
   int number = 0;
   double begun = 0, part = 0;
@@ -105,9 +107,15 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
       best = std::move(*conversion);
       if (static_cast<double>(now.bytes) > kCloseEnough * static_cast<double>(mostBytes)) break;
       if (isFinest && attempt == 0) break;
+    } else if (!best && isLast) {
+      break;
     } else if (conversion || best) {
-      if (!best && isHopeless(bracket.fine, now, mostBytes)) break;
+      isLast = !best && isHopeless(bracket.fine, now, mostBytes);
       bracket.fine = now;  // a tolerance that cannot be met is too fine as well
+      if (isLast) {
+        options.tolerance = std::max(options.tolerance, kCoarsest * diagonal(source.neutral));
+        continue;
+      }
     } else {
       bracket.coarse = now;  // cannot be met although a finer one could be: too coarse
     }

@@ -74,6 +74,17 @@ Keys columnsOf(const CubicKeys& all, const std::vector<std::size_t>& targets) {
   return keys;
 }
 
+/// Adds a column of zeros for every target that is not known.
+void widen(Keys& keys, const std::vector<bool>& isKnown) {
+  for (auto* const list : {&keys.in, &keys.values, &keys.out}) {
+    if (list->empty()) continue;
+    std::vector<double> wide;
+    for (auto next = list->begin(); next != list->end();)
+      for (const bool known : isKnown) wide.push_back(known ? *next++ : 0);
+    *list = std::move(wide);
+  }
+}
+
 /// The values as glTF stores them. Tangents before the first and after the last key have no effect,
 /// but must be numbers.
 std::vector<double> interleaved(const Keys& keys) {
@@ -116,10 +127,7 @@ class Animator {
     for (std::size_t n = 0; n < shown.size(); ++n)
       if (shown[n] >= 0)
         if (auto ok = addNode(n, shown[n]); !ok) return ok;
-    if (animation_["channels"].empty() && !options_.head)
-      return fail(
-          "The face has no target in its scene that an animation could move; convert it with the "
-          "meshes of its expressions.");
+    if (animation_["channels"].empty() && !options_.head) return nothingToMove();
     if (options_.head)
       if (auto ok = addHead(); !ok) return ok;
     Json& animations = scene_.document.json["animations"];
@@ -141,12 +149,24 @@ class Animator {
   }
 
   Result<void> addNode(std::size_t node, Index mesh) {
-    if (scene_.parts.meshes[mesh].targets.empty()) return {};
+    if (std::ranges::none_of(scene_.parts.meshes[mesh].targets,
+                             [&](std::size_t t) { return scene_.targets[t] >= 0; }))
+      return {};
     const auto sampler = samplerOf(mesh);
     if (!sampler) return std::unexpected(sampler.error());
     animation_["channels"].push_back(
         {{"sampler", *sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
     return {};
+  }
+
+  std::unexpected<Error> nothingToMove() const {
+    if (std::ranges::any_of(scene_.targets, [](Index target) { return target >= 0; }))
+      return fail(
+          "No node of the face's scene shows it, so that an animation could move nothing; show it "
+          "by a node in the source, or convert that with --bare.");
+    return fail(
+        "The face has no target in its scene that an animation could move; convert it with the "
+        "meshes of its expressions.");
   }
 
   Result<void> addHead() {
@@ -181,11 +201,15 @@ class Animator {
   Result<std::size_t> samplerOf(Index mesh) {
     if (const auto known = samplers_.find(mesh); known != samplers_.end()) return known->second;
     std::vector<std::size_t> targets;
-    for (const std::size_t t : scene_.parts.meshes[mesh].targets)
-      targets.push_back(static_cast<std::size_t>(scene_.targets[t]));
-    const Keys keys = options_.motion ? exactKeys(*options_.motion, targets)
-                      : few_          ? columnsOf(*few_, targets)
-                                      : framesOf(*options_.clip, targets);
+    std::vector<bool> isKnown;
+    for (const std::size_t t : scene_.parts.meshes[mesh].targets) {
+      isKnown.push_back(scene_.targets[t] >= 0);
+      if (isKnown.back()) targets.push_back(static_cast<std::size_t>(scene_.targets[t]));
+    }
+    Keys keys = options_.motion ? exactKeys(*options_.motion, targets)
+                : few_          ? columnsOf(*few_, targets)
+                                : framesOf(*options_.clip, targets);
+    widen(keys, isKnown);
     const std::vector<double> values = interleaved(keys);
     if (!io::areSingle(keys.times) || !increase(keys.times) || !io::areSingle(values))
       return beyondFloats(keys.times);
@@ -220,7 +244,8 @@ void setWeights(BoundScene& scene, const std::vector<double>& weights) {
   for (const RigMesh& mesh : scene.parts.meshes) {
     if (mesh.targets.empty()) continue;
     Json list = Json::array();
-    for (const std::size_t t : mesh.targets) list.push_back(weights[scene.targets[t]]);
+    for (const std::size_t t : mesh.targets)
+      list.push_back(scene.targets[t] < 0 ? 0 : weights[scene.targets[t]]);
     json["meshes"][mesh.mesh]["weights"] = std::move(list);
   }
   // A node's weights would override its mesh's.

@@ -36,18 +36,15 @@ std::vector<std::string> newTargets(const Rig& rig, const std::vector<std::strin
   return more;
 }
 
-/// The rig's target for each of the scene's.
-Result<std::vector<Index>> matchTargets(const Rig& rig, const std::vector<std::string>& names) {
+/// The rig's target for each of the scene's, or -1 for one that was taken out of the rig.
+std::vector<Index> matchTargets(const Rig& rig, const std::vector<std::string>& names) {
   std::map<std::string_view, Index> numbers;
   for (std::size_t k = 0; k < rig.targets.size(); ++k)
     numbers.emplace(rig.targets[k].name, static_cast<Index>(k));
   std::vector<Index> targets;
   for (const std::string& name : names) {
     const auto number = numbers.find(name);
-    if (number == numbers.end())
-      return doesNotFit(fmt::format("only the latter has the target '{}'", name));
-    targets.push_back(number->second);
-    numbers.erase(number);
+    targets.push_back(number == numbers.end() ? -1 : number->second);
   }
   return targets;
 }
@@ -86,9 +83,7 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   if (parts->vertexCount != vertices)
     return doesNotFit(fmt::format("they have {} and {} vertices", vertices, parts->vertexCount));
   BoundScene scene{std::move(*document), std::move(*parts), {}, {}, polygons.corners, {}};
-  auto targets = matchTargets(rig, scene.parts.targets);
-  if (!targets) return std::unexpected(targets.error());
-  scene.targets = std::move(*targets);
+  scene.targets = matchTargets(rig, scene.parts.targets);
   scene.vertices.resize(vertices);
   std::iota(scene.vertices.begin(), scene.vertices.end(), 0);
   auto faces = partsOfFaces(scene.document, scene.parts, polygons);

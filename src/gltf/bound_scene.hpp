@@ -10,7 +10,7 @@ namespace sweepface::gltf {
 struct BoundScene {
   Document document;
   Parts parts;
-  std::vector<Index> targets;       ///< [parts.targets] the rig's target of each
+  std::vector<Index> targets;       ///< [parts.targets] the rig's target of each, or -1
   std::vector<Index> vertices;      ///< [parts.vertexCount] the source's vertex of each
   std::vector<Index> cornerVertex;  ///< [face corners] which of those vertices is at each
   std::vector<Index> facePart;      ///< [faces] in parts.parts

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "gltf/bounds.hpp"
 #include "gltf/fixed32.hpp"
@@ -328,11 +329,20 @@ Result<Document> parseDocument(std::string_view bytes, const fs::path& folder) {
   return document;
 }
 
-std::string materialName(const Document& document, std::size_t material) {
-  const Json* const name = find(document.list("materials")[material], "name");
-  if (name && name->is_string() && !name->get_ref<const std::string&>().empty())
-    return name->get<std::string>();
-  return fmt::format("material_{}", material);
+std::vector<std::string> materialNames(const Document& document) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  std::map<std::string, int> again;  // how often each name was wanted again
+  for (const Json& material : document.list("materials")) {
+    const Json* const own = find(material, "name");
+    const bool isNamed = own && own->is_string() && !own->get_ref<const std::string&>().empty();
+    const std::string wanted =
+        isNamed ? own->get<std::string>() : fmt::format("material_{}", names.size());
+    std::string name = wanted;
+    while (!taken.insert(name).second) name = fmt::format("{} {}", wanted, ++again[wanted] + 1);
+    names.push_back(std::move(name));
+  }
+  return names;
 }
 
 std::vector<bool> jointsOf(const Document& document) {

@@ -56,8 +56,9 @@ inline constexpr std::string_view dracoRefusal =
 /// named "bufferView".
 bool isHarmlessExtension(std::string_view name);
 
-/// The name of a material, or material_N if it has none.
-std::string materialName(const Document& document, std::size_t material);
+/// A name for every material: its own, or material_N if it has none, with a number appended if
+/// another one before it has that name.
+std::vector<std::string> materialNames(const Document& document);
 
 /// [nodes] whether each is a joint of a skin.
 std::vector<bool> jointsOf(const Document& document);

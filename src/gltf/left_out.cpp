@@ -47,8 +47,9 @@ std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
   constexpr std::size_t kMost = 3;
   constexpr const char* kWhere = "a .glb of the face shows them, pictures and .obj files do not";
   if (!still.empty())
-    warnings.push_back(fmt::format("Meshes without morph targets are not part of the face: {}; {}.",
-                                   io::fewOf(still, kMost), kWhere));
+    warnings.push_back(fmt::format(
+        "Meshes without morph targets, lines and points are not part of the face: {}; {}.",
+        io::fewOf(still, kMost), kWhere));
   if (!again.empty())
     warnings.push_back(
         fmt::format("Meshes that several nodes show are part of the face once, where the first one "

@@ -145,7 +145,7 @@ class RigReader {
   Index readMaterial(Members& in) {
     const std::size_t count = document_.list("materials").size();
     const auto index = in.optionalIndex("material", count, "materials");
-    return index ? materials_(materialName(document_, *index)) : -1;
+    return index ? materials_(materialNames_[*index]) : -1;
   }
 
   std::string meshName(const Run& run) const {
@@ -168,6 +168,7 @@ class RigReader {
   const Parts& parts_;
   MeshRig rig_;
   std::vector<Index> facePart_;
+  std::vector<std::string> materialNames_ = materialNames(document_);
   io::NameIndex materials_, groups_;
   std::size_t corners_ = 0;
   // The first texture coordinate of each accessor, by the transform applied.

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 
 #include "eval/triangulate.hpp"
 #include "gltf/bound_scene.hpp"
 #include "gltf/builder.hpp"
+#include "io/single.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -71,6 +73,9 @@ class SceneMaker {
     if (triangles_.empty())
       return fail("The face has no polygon with three different corners to export.");
     scene_.vertices = splitter_.vertices();
+    if (!std::ranges::all_of(polygons_.texcoords,
+                             [](const Vec2& t) { return io::areSingle(std::array{t.x, t.y}); }))
+      return fail("A texture coordinate is not a number that a glTF can hold.");
     describe();
     auto parts = findParts(scene_.document);
     if (!parts) return std::unexpected(parts.error());

@@ -23,6 +23,9 @@ Index MorphShapes::placeOf(Index sourceVertex) const {
 }
 
 MorphShape MorphShapes::target(Index target, bool withNormals) const {
+  if (target < 0)
+    return {std::vector<Vec3>(neutral_.positions.size()),
+            std::vector<Vec3>(withNormals ? neutral_.normals.size() : 0)};
   // Evaluation is linear, so the difference of the vectors gives that of the vertices, and zeros
   // stay zeros.
   const Target& t = rig_.targets[target];

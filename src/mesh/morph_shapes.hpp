@@ -20,7 +20,8 @@ class MorphShapes {
   /// The place of a vertex of the source, in the order of MorphShape.
   Index placeOf(Index sourceVertex) const;
   const MorphShape& neutral() const { return neutral_; }
-  /// Differences from the neutral, exactly zero wherever the target moves nothing. Thread-safe.
+  /// Differences from the neutral, exactly zero wherever the target moves nothing; all of them for
+  /// target -1. Thread-safe.
   MorphShape target(Index target, bool withNormals) const;
 
  private:

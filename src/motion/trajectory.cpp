@@ -13,8 +13,7 @@ namespace {
 Result<void> checkNumbers(std::initializer_list<double> numbers) {
   for (const double x : numbers)
     if (!std::isfinite(x))
-      return failCall(
-          "A motion needs finite numbers; its goal, time or frequency is beyond what they hold.");
+      return failCall("A motion needs finite numbers; its goal, time or frequency is too large.");
   return {};
 }
 
@@ -201,14 +200,14 @@ Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
       !ok)
     return std::unexpected(ok.error());
   if (!(spring.frequency > 0) || !(spring.damping >= 0))
-    return failCall("A spring needs a frequency greater than 0 and a damping of at least 0.");
+    return failCall("A spring needs a frequency above 0 and a damping from 0.");
   return Trajectory(path::Swing{to, start.position, start.velocity, sigma, omega});
 }
 
 Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, double restitution) {
   constexpr double kMost = 1 - 1e-9;  // beyond it the sum over all bounces loses precision
   if (!(restitution >= 0 && restitution <= kMost))
-    return failCall("A bounce keeps a part of its speed: the restitution lies in [0, 1 - 1e-9].");
+    return failCall("A bounce keeps part of its speed: the restitution lies in [0, 1 - 1e-9].");
   const Result<Trajectory> fall = constantForce(start, to, seconds);
   if (!fall) return fall;
   const Cubic first = std::get<path::Pieces>(fall->path_).first;

@@ -117,9 +117,11 @@ Followers::Followers(std::vector<Follower> followers) {
     } else {
       auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
       if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}, 0});
-      // If two targets stand for the same stop, the first counts.
+      // If two targets stand for the same stop, the first counts, and the other stays at 0.
       if (chain->stops.empty() || chain->stops.back().at != follower.at)
         chain->stops.push_back(follower);
+      else
+        arcs_.push_back({Follower::Kind::arc, follower.target, {}, 0});
     }
   }
   for (const Follower& product : followers)

@@ -42,6 +42,10 @@ class Painter {
   Result<std::vector<double>> distances() {
     if (!(brush_.whole >= 0 && brush_.fade >= 0) || !std::isfinite(brush_.whole + brush_.fade))
       return fail("The distances of a brush are finite and at least 0.");
+    if (brush_.parts.empty() && brush_.points.empty() && brush_.line.empty() &&
+        brush_.curves.empty() && brush_.nodes.empty())
+      return fail(
+          "The brush says nowhere where it is; give it parts, points, a line, curves or nodes.");
     placeNodes();
     if (auto ok = fromParts(); !ok) return std::unexpected(ok.error());
     if (auto ok = fromLines(); !ok) return std::unexpected(ok.error());

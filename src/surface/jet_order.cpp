@@ -6,6 +6,13 @@ namespace sweepface {
 
 namespace {
 
+// Whoever moves a vertex settles all vectors that it is derived from, step by step. On faces of any
+// size there are a dozen steps.
+constexpr int kMostSteps = 64;
+
+constexpr const char* kSides =
+    ": nodes on sides stand on each other's; make one a corner on both sides";
+
 // For each derived vector, the derived vectors that need it, in ascending order.
 class Dependents {
  public:
@@ -95,24 +102,33 @@ Result<JetTable> orderJets(const JetNumbers& numbers, const JetRows& rows,
     if (!numbers.isStored(v) && waitsFor[v] == 0) ready.push_back(v);
   table.terms.reserve(rows.termCount());
   table.rowStart.reserve(ready.capacity() + 1);
-  for (std::size_t k = 0; k < ready.size(); ++k) {
+  Index node = -1;  // where derivatives take too many steps
+  std::size_t nextStep = 0;
+  for (std::size_t k = 0, left = kMostSteps; k < ready.size(); ++k) {
     const Index v = ready[k];
+    if (k == nextStep) {  // those before it need fewer steps, and all later ones as many or more
+      if (left-- == 0) {
+        node = numbers.owner(v).node;
+        break;
+      }
+      nextStep = ready.size();
+    }
     place[v] = static_cast<Index>(table.stored.size() + k);
     for (const Term& t : rows.of(v)) table.terms.push_back({place[t.vector], t.factor});
     table.rowStart.push_back(static_cast<Index>(table.terms.size()));
     for (Index d : dependents.of(v))
       if (--waitsFor[d] == 0) ready.push_back(d);
   }
-  if (table.stored.size() + ready.size() == static_cast<std::size_t>(vectors)) return table;
-  const std::vector<Index> breakers = Circles(numbers, rows, connectivity, place).breakers();
-  if (circle) *circle = breakers;
-  const Index node = breakers.front();
-  if (connectivity.kinds[node] == NodeKind::hanging)
-    return fail("the derivatives at node ", node,
-                " are derived from themselves: nodes on sides stand on each other's in a circle; "
-                "make one of them a corner on both sides");
-  return fail("the derivatives at node ", node,
-              " are derived from themselves; let it store its own");
+  const char *why = " take too many steps", *advice = kSides;
+  if (node < 0) {
+    if (table.stored.size() + ready.size() == static_cast<std::size_t>(vectors)) return table;
+    const std::vector<Index> breakers = Circles(numbers, rows, connectivity, place).breakers();
+    if (circle) *circle = breakers;
+    node = breakers.front();
+    why = " are derived from themselves";
+    if (connectivity.kinds[node] != NodeKind::hanging) advice = "; let it store its own";
+  }
+  return fail("the derivatives at node ", node, why, advice);
 }
 
 }  // namespace sweepface

@@ -49,6 +49,10 @@ Vec3 colourOf(const Json& object, std::string_view key, const Vec3& absent) {
   return colour;
 }
 
+const Json& extensionOf(const Json& object, std::string_view name) {
+  return memberOf(memberOf(object, "extensions"), name);
+}
+
 class SceneLooks {
  public:
   SceneLooks(const gltf::Document& document, bool withImages)
@@ -57,11 +61,10 @@ class SceneLooks {
   /// The looks of materials with these names.
   Looks read(const std::vector<std::string>& wanted) {
     const Json& materials = document_.list("materials");
-    for (std::size_t m = 0; m < materials.size(); ++m) {
-      std::string name = gltf::materialName(document_, m);
-      if (std::ranges::find(wanted, name) == wanted.end() || looks_.byName.contains(name)) continue;
-      looks_.byName.emplace(std::move(name), lookOf(materials[m]));
-    }
+    const std::vector<std::string> names = gltf::materialNames(document_);
+    for (std::size_t m = 0; m < materials.size(); ++m)
+      if (std::ranges::find(wanted, names[m]) != wanted.end())
+        looks_.byName.emplace(names[m], lookOf(materials[m]));
     return std::move(looks_);
   }
 
@@ -79,7 +82,12 @@ class SceneLooks {
     look.isTransparent = mode == "BLEND" || look.opacityThreshold > 0;
     look.metallic = shareOf(pbr, "metallicFactor", 1);
     look.roughness = shareOf(pbr, "roughnessFactor", 1);
-    look.emission = colourOf(material, "emissiveFactor", {});
+    look.emission = std::clamp(numberOf(extensionOf(material, "KHR_materials_emissive_strength"),
+                                        "emissiveStrength", 1),
+                               0.0, 1e6) *
+                    colourOf(material, "emissiveFactor", {});
+    look.refraction =
+        std::clamp(numberOf(extensionOf(material, "KHR_materials_ior"), "ior", 1.5), 1.0, 1e6);
     look.colourMap = mapOf(base, base);
     look.roughnessMap = mapOf(memberOf(pbr, "metallicRoughnessTexture"), base);
     look.normalMap = mapOf(memberOf(material, "normalTexture"), base);
@@ -92,11 +100,20 @@ class SceneLooks {
     if (gltf::find(pbr, "metallicRoughnessTexture") && look.roughnessMap.image < 0)
       look.metallic = 0;
     if (gltf::find(material, "emissiveTexture") && look.emissionMap.image < 0) look.emission = {};
+    addCoat(look, extensionOf(material, "KHR_materials_clearcoat"), base);
     return look;
   }
 
+  void addCoat(Look& look, const Json& coat, const Json& base) {
+    look.coat = shareOf(coat, "clearcoatFactor", 0);
+    look.coatRoughness = shareOf(coat, "clearcoatRoughnessFactor", 0);
+    look.coatMap = mapOf(memberOf(coat, "clearcoatTexture"), base);
+    look.coatRoughnessMap = mapOf(memberOf(coat, "clearcoatRoughnessTexture"), base);
+    if (gltf::find(coat, "clearcoatTexture") && look.coatMap.image < 0) look.coat = 0;
+  }
+
   static const Json& transformOf(const Json& map) {
-    return memberOf(memberOf(map, "extensions"), "KHR_texture_transform");
+    return extensionOf(map, "KHR_texture_transform");
   }
 
   static bool areOfTheFirstSet(const Json& map) {

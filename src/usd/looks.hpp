@@ -27,9 +27,11 @@ struct Map {
 struct Look {
   Vec3 colour{1, 1, 1}, emission;
   double opacity = 1, metallic = 0, roughness = 0.7;
-  bool isTransparent = false;   ///< whether opacity counts
-  double opacityThreshold = 0;  ///< greater than 0: whatever is less opaque is left out
-  Map colourMap, normalMap, roughnessMap, occlusionMap, emissionMap;
+  bool isTransparent = false;          ///< whether opacity counts
+  double opacityThreshold = 0;         ///< greater than 0: whatever is less opaque is left out
+  double coat = 0, coatRoughness = 0;  ///< of a clear layer, such as the wet one of eyes
+  double refraction = 1.5;             ///< index of refraction
+  Map colourMap, normalMap, roughnessMap, occlusionMap, emissionMap, coatMap, coatRoughnessMap;
 };
 
 /// The looks of materials by their names, and the images they have.

@@ -42,9 +42,11 @@ class Shaders {
     text_.open("Shader", "shader");
     text_.set("uniform token info:id", R"("UsdPreviewSurface")");
     const Reader colour{"colour", look_.colourMap, {c.x, c.y, c.z, opacity}, {}, true};
+    if (look_.coat > 0) addCoat();
     input("color3f inputs:diffuseColor", tuple(c), colour, "rgb");
     input("color3f inputs:emissiveColor", tuple(e),
           {"emission", look_.emissionMap, {e.x, e.y, e.z, 1}, {}, true}, "rgb");
+    if (look_.refraction != 1.5) text_.set("float inputs:ior", number(look_.refraction));
     const Reader rough{"rough", look_.roughnessMap, {1, look_.roughness, look_.metallic, 1}};
     input("float inputs:metallic", number(look_.metallic), rough, "b");
     if (has(look_.normalMap)) {
@@ -65,6 +67,13 @@ class Shaders {
     input("float inputs:roughness", number(look_.roughness), rough, "g");
     text_.declare("token outputs:surface");
     text_.close();
+  }
+
+  void addCoat() {
+    const double coat = look_.coat, rough = look_.coatRoughness;
+    input("float inputs:clearcoat", number(coat), {"coat", look_.coatMap, {coat, 1, 1, 1}}, "r");
+    input("float inputs:clearcoatRoughness", number(rough),
+          {"coatRough", look_.coatRoughnessMap, {1, rough, 1, 1}}, "g");
   }
 
   static bool has(const Map& map) { return map.image >= 0; }

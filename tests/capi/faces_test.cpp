@@ -188,6 +188,56 @@ TEST(FacesThatFollow, GoOnArcsAndCombine) {
   sweepface_rig_free(handle);
 }
 
+/// A rig of one target under these names.
+sweepface_rig* loadNamed(const std::vector<std::string>& names) {
+  Rig rig = makeRig(tee());
+  rig.targets.resize(1);
+  for (const std::string& name : names) rig.targets.emplace_back(rig.targets[0]).name = name;
+  rig.targets.erase(rig.targets.begin());
+  const std::string bytes = encode(rig);
+  sweepface_rig* handle = nullptr;
+  EXPECT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK)
+      << sweepface_message();
+  return handle;
+}
+
+/// Each in-between extrapolates the one before a hundredfold.
+TEST(FacesThatFollow, StayFiniteHoweverFarInBetweensAre) {
+  std::vector<std::string> names{"A", "B", "A.99"};
+  for (int k = 0; k < 160; ++k) names.push_back(names.back() + ".01");
+  names.push_back(names.back() + "_B");
+  sweepface_rig* const rig = loadNamed(names);
+  ASSERT_EQ(sweepface_rig_follow(rig, SWEEPFACE_COMBINE), SWEEPFACE_OK);
+  sweepface_mesh* mesh = nullptr;
+  sweepface_face* face = nullptr;
+  ASSERT_EQ(sweepface_mesh_create(rig, 1, &mesh), SWEEPFACE_OK);
+  ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
+  for (const double weight : {2.0, -1.0}) {
+    ASSERT_EQ(sweepface_face_set_weight(face, 0, weight), SWEEPFACE_OK);
+    double low[3], high[3];
+    ASSERT_EQ(sweepface_face_box(face, low, high), SWEEPFACE_OK);
+    EXPECT_FALSE(std::isnan(low[0] + high[0]));
+    EXPECT_FALSE(std::isnan(sweepface_face_error(face)));
+    std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh));
+    ASSERT_EQ(sweepface_face_evaluate(face, out.size() / 3, {out.data(), 0}, kUnwanted),
+              SWEEPFACE_OK);
+    for (const float x : out) ASSERT_TRUE(std::isfinite(x));
+  }
+  sweepface_face_free(face);
+  sweepface_mesh_free(mesh);
+  sweepface_rig_free(rig);
+}
+
+TEST(FacesThatFollow, HaveNotTooManyTargets) {
+  std::vector<std::string> names;
+  for (int k = 0; k < 4097; ++k) names.push_back(std::to_string(k));
+  sweepface_rig* const rig = loadNamed(names);
+  EXPECT_EQ(sweepface_rig_follow(rig, 0), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_rig_follow(rig, SWEEPFACE_COMBINE), SWEEPFACE_BAD_ARGUMENT);
+  EXPECT_STREQ(sweepface_message(), "Weights follow in faces of up to 4096 targets, not of 4097.");
+  sweepface_rig_free(rig);
+}
+
 TEST_F(Faces, AreTheLibrarysOwnAtAnyLevel) {
   make(3);
   const Tessellation grid(rig.surface, 3);

@@ -11,6 +11,7 @@
 #include "sweepface/sweepface.h"
 #include "sweepface/sweepface_regions.h"
 
+#include "codec/rigs.hpp"
 #include "faces.hpp"
 
 namespace sweepface {
@@ -121,6 +122,20 @@ TEST_F(MeshesOfPoints, MoveByRegions) {
   ASSERT_EQ(sweepface_face_set_weights(face, weights, 2), SWEEPFACE_OK);
   EXPECT_NE(still, one);
   EXPECT_NE(positions(), one);
+}
+
+TEST_F(MeshesOfPoints, AreRefusedOnFacesOfTooManyQuads) {
+  Rig plain;
+  plain.surface = Surface::make(onePatch(4097, 4097)).value();
+  plain.neutral.resize(plain.surface.storedCount());
+  const std::string bytes = encode(plain);
+  sweepface_rig* large = nullptr;
+  ASSERT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "large", &large), SWEEPFACE_OK)
+      << sweepface_message();
+  EXPECT_EQ(sweepface_mesh_create_at(large, points.data(), kCount, &mesh), SWEEPFACE_BAD_ARGUMENT);
+  EXPECT_NE(std::string_view(sweepface_message()).find("more than 16777216 quads"),
+            std::string_view::npos);
+  sweepface_rig_free(large);
 }
 
 TEST_F(MeshesOfPoints, AreRefusedWhereThereAreNone) {

@@ -126,7 +126,7 @@ TEST_F(RegionsOnTheFace, SayWhatIsWrong) {
   const std::string command = "animate face.sweep --to smile=1 -o out.glb --regions ";
   EXPECT_TRUE(fails(command + "none.json", "none.json"));
   folder.file("empty.json", "{}");
-  EXPECT_TRUE(fails(command + "empty.json", "no 'regions'"));
+  EXPECT_TRUE(fails(command + "empty.json", "has no regions"));
   folder.file("part.json", R"({"regions": [{"name": "a", "parts": ["nose"]}]})");
   folder.file("far.json",
               R"({"regions": [{"name": "a", "points": [[9, 9, 9]], "over": "space"}]})");

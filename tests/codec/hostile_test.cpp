@@ -492,6 +492,18 @@ TEST(Hostile, WireframesOfMoreThanTheyCanUseAreRefused) {
   EXPECT_NE(problemWith(wireframe).find("a value is not finite"), std::string::npos);
 }
 
+// Sums of such would be infinite, and differences of those no numbers.
+TEST(Hostile, ExactVectorsBeyondSinglePrecisionAreRefused) {
+  Rig rig = makeRig(onePatch(2, 2));
+  rig.neutral[0].x = 3e38;
+  EXPECT_TRUE(decode(encode(rig), "far"));
+  rig.neutral[0].x = 4e38;
+  const auto refused = decode(encode(rig), "far");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("beyond single precision"), std::string::npos)
+      << refused.error().message;
+}
+
 // A file of a few bytes could keep a reader busy for hours.
 TEST(Hostile, WhatTakesTooLongToFollowIsRefused) {
   EXPECT_EQ(problemWith(fanOf(300)), "");

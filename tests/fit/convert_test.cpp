@@ -360,6 +360,26 @@ TEST(Search, forAToleranceDoesNotEndWhereOneCannotBeMet) {
   }
 }
 
+/// The bytes of a mesh as small as this go up and down with the tolerance.
+TEST(Search, forAToleranceFindsWhatFitsMoreWhereLessFits) {
+  MeshRig source = withTargets(plane(8, 8), 4);
+  for (std::size_t v = 0; v < source.neutral.positions.size(); ++v) {
+    const Vec3 bump{0, 0, 0.05 * std::sin(3.7 * static_cast<double>(v * v % 31))};
+    source.neutral.positions[v] += bump;
+    for (MeshTarget& target : source.targets) target.positions[v] += bump;
+  }
+  ConvertOptions coarse;
+  coarse.pack = true, coarse.tolerance = 0.125 * diagonal(source.neutral);
+  const auto coarsest = convert(source, coarse);
+  ASSERT_TRUE(coarsest) << coarsest.error().message;
+  const std::size_t least = encode(coarsest->rig).size();
+  for (std::size_t most = least; most < 3 * least; most += least / 4) {
+    const auto conversion = convertToBytes(source, {}, most);
+    ASSERT_TRUE(conversion) << most << ": " << conversion.error().message;
+    EXPECT_LE(encode(conversion->rig).size(), most);
+  }
+}
+
 /// The first tolerance leaves the normals too inaccurate.
 TEST(Search, forAToleranceGoesOnWithSmallerOnesWhereNormalsAreTooFarOff) {
   const MeshRig source = withTargets(plane());

@@ -180,7 +180,7 @@ TEST(AnimationWriter, RefusesWhatCannotMove) {
     return read(glb).scene;
   }();
   const Motion both = motionOf(unseen, TimeLaw::newton);
-  refuses(unseen, both, 0, "no target in its scene");
+  refuses(unseen, both, 0, "No node of the face's scene shows it");
 }
 
 TEST(AnimationWriter, WritesTheFramesWhereCurvesWouldBeLarger) {

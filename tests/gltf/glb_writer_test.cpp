@@ -82,7 +82,15 @@ TEST(GlbWriter, RefusesABudgetWhereItCannotBeKept) {
   EXPECT_TRUE(failsWith(formatGlb(rig, options), {"not one of the face with a density"}));
   options.grid = &its;
   EXPECT_TRUE(failsWith(formatGlb(rig, options), {"not one of the face with a density"}));
-  EXPECT_TRUE(failsWith(formatGlb(other, options), {"goes back into its scene"}));
+}
+
+TEST(GlbWriter, RefusesTextureCoordinatesThatAreNoNumbers) {
+  for (const double bad : {std::nan(""), 1e300}) {
+    MeshRig meshes{plane(2, 2), {}};
+    meshes.neutral.polygons.texcoords = {{0, bad}};
+    meshes.neutral.polygons.cornerTexcoords.assign(meshes.neutral.polygons.corners.size(), 0);
+    EXPECT_TRUE(failsWith(formatGlb(meshes), {"A texture coordinate is not a number"}));
+  }
 }
 
 TEST(GlbWriter, RefusesWhatDoesNotBelongTogether) {

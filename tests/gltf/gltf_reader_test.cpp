@@ -219,6 +219,18 @@ TEST(GltfReader, MaterialsShareTextureCoordinatesThatTheyDoNotTransform) {
   EXPECT_EQ(read(glb).rig.neutral.polygons.texcoords.size(), 18u);
 }
 
+TEST(GltfReader, MaterialsOfOneNameAreToldApart) {
+  Glb glb = smallFace();
+  Json& primitives = glb.json["meshes"][0]["primitives"];
+  for (const char* name : {"skin", "skin 2", "skin"}) {
+    Json more = primitives[0];
+    more["material"] = glb.add("materials", {{"name", name}});
+    primitives.push_back(more);
+  }
+  EXPECT_EQ(read(glb).rig.neutral.polygons.materials,
+            (std::vector<std::string>{"skin", "skin 2", "skin 2 2", "skin 3"}));
+}
+
 // ---- Quads ----
 
 /// The sheet with separate vertices for every triangle, each with a colour and a normal.

@@ -20,8 +20,8 @@ TEST(LeftOut, AreMeshesWithoutTargets) {
   EXPECT_TRUE(read(smallFace()).warnings.empty());
   EXPECT_EQ(read(withHats(1)).warnings,
             (std::vector<std::string>{
-                "Meshes without morph targets are not part of the face: mesh 1 'hat0'; a .glb of "
-                "the face shows them, pictures and .obj files do not."}));
+                "Meshes without morph targets, lines and points are not part of the face: mesh 1 "
+                "'hat0'; a .glb of the face shows them, pictures and .obj files do not."}));
   const auto warnings = read(withHats(5)).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("mesh 1 'hat0', mesh 2 'hat1', mesh 3 'hat2' and 2 more;"),
@@ -38,6 +38,17 @@ TEST(LeftOut, ArePrimitivesWithoutTargets) {
   EXPECT_NE(warnings[0].find("not part of the face: mesh 0 'head', primitive 1;"),
             std::string::npos)
       << warnings[0];
+}
+
+TEST(LeftOut, ArePrimitivesOfLines) {
+  Glb glb = smallFace();
+  Json lines = glb.primitive();
+  lines["mode"] = 1;
+  glb.json["meshes"][0]["primitives"].push_back(lines);
+  const auto warnings = read(glb).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("lines and points are not part of the face: mesh 0 'head', primitive"),
+            std::string::npos);
 }
 
 TEST(LeftOut, AreNoMeshesThatNoSceneShows) {

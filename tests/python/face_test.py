@@ -28,6 +28,8 @@ class Faces(FaceTest):
         fine = sweepface.Face(self.rig, tolerance=1e-4)
         self.assertLess(fine.bound(OPEN), 0.5 * self.face.bound(OPEN))
         self.assertLess(np.linalg.norm(fine.evaluate(OPEN) - pose.positions(), axis=1).max(), fine.bound(OPEN))
+        with self.refuses("must be greater than 0"):
+            sweepface.Face(self.rig, tolerance=0)
         with self.refuses("of one frame"):
             self.face.bound(np.zeros((0, 42)))
         cosine = (normals * pose.normals()).sum(axis=1)

@@ -85,7 +85,7 @@ class Painting(RegionTest):
 
     def test_refuses_what_makes_no_sense(self):
         for brush, sentence in (
-            ({}, "reaches no node"),
+            ({}, "says nowhere where it is"),
             ({"points": [1, 2, 3]}, "three numbers a row"),
             ({"points": [[np.nan, 0, 0]]}, "not finite"),
             ({"points": "here"}, "Points must be an array"),

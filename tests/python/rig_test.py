@@ -75,7 +75,10 @@ class Files(FaceTest):
         self.assertAlmostEqual(back[0, self.rig.target_names.index("jawOpen")], 1, places=6)
         with self.refuses("jawOpenn"):
             self.rig.save_glb(self.path("face.glb"), weights={"jawOpenn": 0.5})
-
+        with self.refuses("key_tolerance is for the keys of a clip"):
+            self.rig.save_glb(self.path("face.glb"), key_tolerance=0.01)
+        with self.refuses("time_codes_per_second is for the frames of a clip"):
+            self.rig.save_usd(self.path("face.usda"), time_codes_per_second=24)
 
     def test_keep_to_budgets_in_files(self):
         for save, name in ((self.rig.save_glb, "far.glb"), (self.rig.save_usd, "far.usda")):
@@ -355,6 +358,8 @@ class Conversion(FaceTest):
             sweepface.convert(sheet(), progress=3)
         with self.refuses("packed"):
             sweepface.convert(sheet(), normal_tolerance=1)
+        with self.refuses("texture_bits is for packed rigs"):
+            sweepface.convert(sheet(), texture_bits=12)
 
     def test_changes_shapes_and_keeps_the_rest(self):
         meshes = self.rig.meshes()

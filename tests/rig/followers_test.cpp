@@ -85,7 +85,7 @@ TEST(Followers, inBetweensHandOver) {
 TEST(Followers, inBetweensThatAreThereTwiceHandOverOnce) {
   const std::vector<Follower> followers{{Kind::inBetween, 1, {0}, 0.5},
                                         {Kind::inBetween, 2, {0}, 0.5}};
-  const auto at = [&](double w) { return applied(followers, {w, 9, 0}); };
+  const auto at = [&](double w) { return applied(followers, {w, 9, 9}); };
   EXPECT_EQ(at(0.5), (std::vector<double>{0, 1, 0}));
   EXPECT_EQ(at(0.75), (std::vector<double>{0.5, 0.5, 0}));
 }

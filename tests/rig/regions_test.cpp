@@ -374,6 +374,9 @@ TEST(Regions, RefuseWhatCannotBe) {
   EXPECT_TRUE(refuses({{"a", {}, std::vector(nodes, std::nan(""))}}));
   EXPECT_TRUE(refuses({{"a", {0, 1, 0}, all}}));
   EXPECT_TRUE(refuses({{"a", {1, 1, -1}, all}}));
+  const auto nowhere = paint(hill(), Brush{});
+  ASSERT_FALSE(nowhere);
+  EXPECT_NE(nowhere.error().message.find("says nowhere where it is"), std::string::npos);
 }
 
 // ---- Blending ----

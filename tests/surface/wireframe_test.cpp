@@ -1,3 +1,6 @@
+#include <map>
+#include <set>
+
 #include "surface/surfaces.hpp"
 
 namespace sweepface {
@@ -285,7 +288,7 @@ TEST(Circles, areRefusedAndNameANodeThatBreaksThem) {
     ASSERT_FALSE(circle.empty());
     EXPECT_TRUE(surface.error().message.ends_with(
         circle.front() < 8 ? "are derived from themselves; let it store its own"
-                           : "make one of them a corner on both sides"))
+                           : "make one a corner on both sides"))
         << surface.error().message;
     for (Index node : circle) {
       if (node >= 8) return;  // a T-node: it must become a crossing
@@ -294,6 +297,69 @@ TEST(Circles, areRefusedAndNameANodeThatBreaksThem) {
     }
   }
   FAIL() << "no T-node is named";
+}
+
+/// Slices of a square, from the bottom and from the left in turn: each begins at a T-node on the
+/// one before.
+Wireframe slices(Index size) {
+  using Place = std::array<Index, 2>;
+  std::vector<std::array<Place, 4>> boxes;
+  const auto add = [&](Index left, Index bottom, Index right, Index top) {
+    boxes.push_back({{{left, bottom}, {right, bottom}, {right, top}, {left, top}}});
+  };
+  for (Index k = 0; k + 1 < size; ++k) {
+    add(k, k, size, k + 1);
+    add(k, k + 1, k + 1, size);
+  }
+  add(size - 1, size - 1, size, size);
+
+  Wireframe w;
+  std::map<Place, Index> nodes;
+  for (const auto& box : boxes)
+    for (const Place& corner : box)
+      if (nodes.emplace(corner, static_cast<Index>(nodes.size())).second)
+        w.nodes.push_back({-1, kPosition});
+  std::map<std::array<Index, 2>, HalfArc> arcs;
+  std::set<Index> inside;  // nodes within a side
+  for (const auto& box : boxes) {
+    Patch patch;
+    for (int s = 0; s < 4; ++s) {
+      patch.sides[s] = static_cast<Index>(w.loops.size());
+      const Place goal = box[(s + 1) % 4];
+      Index edges = 0, from = nodes.at(box[s]);
+      for (Place at = box[s]; at != goal;) {
+        for (int c = 0; c < 2; ++c) at[c] += (goal[c] > at[c]) - (goal[c] < at[c]);
+        ++edges;
+        const auto node = nodes.find(at);
+        if (node == nodes.end()) continue;
+        const Index to = node->second;
+        if (at != goal) inside.insert(to);
+        const auto [known, isNew] =
+            arcs.emplace(std::array{from, to}, static_cast<HalfArc>(2 * w.arcs.size()));
+        if (isNew) {
+          arcs[{to, from}] = known->second + 1;
+          w.arcs.push_back(arc(from, to, edges, 0));
+        }
+        w.loops.push_back(known->second);
+        from = to, edges = 0;
+      }
+    }
+    patch.sides[4] = static_cast<Index>(w.loops.size());
+    w.patches.push_back(patch);
+  }
+  for (std::size_t n = 0; n < w.nodes.size(); ++n)
+    if (!inside.contains(static_cast<Index>(n))) w.nodes[n] = {w.points++, kWholeJet};
+  w.ribbons = {{}};
+  return w;
+}
+
+// Tables for evaluation take as long as there are vectors behind a vertex.
+TEST(Derivations, areRefusedWhereTheyGoOnAndOn) {
+  EXPECT_EQ(refusal(slices(20)), "");
+  const std::string why = refusal(slices(60));
+  EXPECT_NE(why.find("take too many steps: nodes on sides stand on each other's"),
+            std::string::npos)
+      << why;
 }
 
 }  // namespace

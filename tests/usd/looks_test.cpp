@@ -49,6 +49,45 @@ TEST(Looks, AreThoseOfTheMaterial) {
   EXPECT_EQ(look.colourMap.image, -1);
 }
 
+TEST(Looks, HaveClearLayersStrongLightsAndRefraction) {
+  Glb glb = textured({kPng});
+  material(glb)["emissiveFactor"] = {1, 0.5, 0};
+  material(glb)["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}},
+                                 {"KHR_materials_ior", {{"ior", 1.376}}},
+                                 {"KHR_materials_clearcoat",
+                                  {{"clearcoatFactor", 0.75},
+                                   {"clearcoatRoughnessFactor", 0.125},
+                                   {"clearcoatRoughnessTexture", {{"index", 0}}}}}};
+  const usd::Look look = lookOf(glb);
+  EXPECT_EQ(look.emission, (Vec3{4, 2, 0}));
+  EXPECT_EQ(look.refraction, 1.376);
+  EXPECT_EQ(look.coat, 0.75);
+  EXPECT_EQ(look.coatRoughness, 0.125);
+  EXPECT_EQ(look.coatMap.image, -1);
+  EXPECT_EQ(look.coatRoughnessMap.image, 0);
+  material(glb)["extensions"]["KHR_materials_clearcoat"]["clearcoatTexture"] = {{"index", 0}};
+  EXPECT_EQ(lookOf(glb).coat, 0.75);
+  EXPECT_EQ(lookOf(glb, false).coat, 0) << "its map is left out";
+  material(glb)["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}},
+                                 {"KHR_materials_ior", {{"ior", 0}}}};
+  EXPECT_EQ(lookOf(glb).emission, Vec3{});
+  EXPECT_EQ(lookOf(glb).refraction, 1);
+}
+
+TEST(Looks, AreToldApartWhereMaterialsHaveOneName) {
+  Glb glb = smallFace();
+  material(glb)["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0, 0, 1};
+  Json blue = glb.primitive();
+  blue["material"] =
+      glb.add("materials",
+              {{"name", "skin"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 1, 1}}}}});
+  glb.json["meshes"][0]["primitives"].push_back(blue);
+  const auto looks = usd::looksOf(converted(glb), false);
+  ASSERT_TRUE(looks);
+  EXPECT_EQ(looks->byName.at("skin").colour, (Vec3{1, 0, 0}));
+  EXPECT_EQ(looks->byName.at("skin 2").colour, (Vec3{0, 0, 1}));
+}
+
 TEST(Looks, OfAFaceWithoutASceneAreUnknown) {
   const auto looks = usd::looksOf(converted(withTargets(plane(4, 4), 1)), true);
   ASSERT_TRUE(looks);
@@ -146,12 +185,20 @@ TEST(Looks, AreWrittenAsShaders) {
   material(glb)["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
   material(glb)["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
   material(glb)["alphaMode"] = "MASK";
+  material(glb)["extensions"] = {{"KHR_materials_ior", {{"ior", 1.25}}},
+                                 {"KHR_materials_clearcoat",
+                                  {{"clearcoatFactor", 0.75},
+                                   {"clearcoatTexture", {{"index", 0}}},
+                                   {"clearcoatRoughnessFactor", 0.5}}}};
   const Rig rig = converted(glb);
-  const Layer plain(formatUsd(rig, {}).value());
+  const std::string text = formatUsd(rig, {}).value();
+  EXPECT_EQ(text.find("clearcoat"), std::string::npos) << "its map is left out";
+  const Layer plain(text);
   const std::string skin = "/face/materials/skin/";
   EXPECT_EQ(plain.value(skin + "shader.color3f inputs:diffuseColor"), "(1, 0.5, 0.25)");
   EXPECT_EQ(plain.value(skin + "shader.float inputs:opacity"), "0.75");
   EXPECT_EQ(plain.value(skin + "shader.float inputs:opacityThreshold"), "0.5");
+  EXPECT_EQ(plain.value(skin + "shader.float inputs:ior"), "1.25");
   EXPECT_EQ(plain.type(skin + "colour"), "");
   const std::string archive = formatUsdz(rig, {}).value();
   EXPECT_NE(archive.find(kPng), std::string::npos);
@@ -163,6 +210,10 @@ TEST(Looks, AreWrittenAsShaders) {
             "<" + skin + "colour.outputs:a>");
   EXPECT_EQ(layer.value(skin + "shader.float inputs:metallic.connect"),
             "<" + skin + "rough.outputs:b>");
+  EXPECT_EQ(layer.value(skin + "shader.float inputs:clearcoat.connect"),
+            "<" + skin + "coat.outputs:r>");
+  EXPECT_EQ(layer.value(skin + "shader.float inputs:clearcoatRoughness"), "0.5");
+  EXPECT_EQ(layer.value(skin + "coat.float4 inputs:scale"), "(0.75, 1, 1, 1)");
   EXPECT_EQ(layer.value(skin + "colour.asset inputs:file"), "@textures/image.png@");
   EXPECT_EQ(layer.value(skin + "colour.float4 inputs:scale"), "(1, 0.5, 0.25, 0.75)");
   EXPECT_EQ(layer.value(skin + "colour.token inputs:sourceColorSpace"), R"("sRGB")");

@@ -145,6 +145,32 @@ test('weights that are set right before a frame are in it', options, async () =>
   assertShows(mesh);
 });
 
+test('cuts show at once, also where time stands still', options, async () => {
+  const {scene, mesh} = await load();
+  scene.animationsEnabled = false;
+  mesh.moveTo({jawOpen: 1}, 'cut');
+  mesh.moveTo({browInnerUp: 1}, {kind: 'spring', frequency: 2});
+  scene.render();
+  assert.deepEqual([mesh.weights.jawOpen, mesh.weights.browInnerUp], [1, 0]);
+  assertShows(mesh);
+  assert.ok(mesh.advance(0.1));
+});
+
+test('a geometry of other vertices is refused with a sentence', options, async () => {
+  const {scene, mesh} = await load();
+  mesh.convertToFlatShadedMesh();
+  mesh.setWeights({jawOpen: 1});
+  for (let frame = 0; frame < 2; ++frame)
+    assert.throws(() => scene.render(), /^Error: The geometry must have the \d+ vertices of the face/);
+});
+
+test('what is no scene is refused with a sentence', options, async () => {
+  const {scene, mesh, SweepfaceMesh} = await load();
+  await assert.rejects(SweepfaceMesh.load(readFileSync(sample), {lod: 2}), /^TypeError: A mesh takes the scene/);
+  assert.throws(() => new SweepfaceMesh('face', {lod: 2}, mesh.face), /^TypeError: A mesh takes the scene/);
+  assert.equal(scene.meshes.length, 1);
+});
+
 test('a face goes if no mesh can be made of it, and leaves none behind', options, async () => {
   const {scene, mesh, SweepfaceMesh} = await load();
   mesh.dispose();

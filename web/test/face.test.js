@@ -448,8 +448,12 @@ test('options are those that there are, and one level of detail', async () => {
   await assert.rejects(load({lods: 2}), {message: /^Sweepface.load has no option 'lods'; it has lod, .*\.$/});
   await assert.rejects(load({lod: 2, vertices: 500}), {message: /in one way, not by lod and vertices\.$/});
   await assert.rejects(load({vertices: '500'}), {message: /must be a number, not the text '500'\.$/});
+  for (const key of ['arcs', 'combine', 'eyes'])
+    await assert.rejects(load({[key]: 'off'}),
+                         {name: 'TypeError', message: `The option '${key}' is true or false, not the text 'off'.`});
   await assert.rejects(load({error: null}), {message: /must be a number, not null\.$/});
-  const nothing = Object.fromEntries(['lod', 'edgeLength', 'error', 'vertices', 'regions', 'wasm'].map((key) => [key]));
+  const keys = ['lod', 'edgeLength', 'error', 'vertices', 'arcs', 'combine', 'eyes', 'regions', 'wasm'];
+  const nothing = Object.fromEntries(keys.map((key) => [key]));
   const face = await load(nothing, packed());
   face.moveTo({jawOpen: 1}, {kind: 'cut', delay: undefined, seconds: undefined});
   face.advance(0);
@@ -502,6 +506,17 @@ test('arrays that cannot hold what is written are refused', async () => {
       assert.throws(write, {name: 'TypeError', message: /written to a Float32Array, a Float64Array or null, not to (\w+)\.$/});
   for (const out of [undefined, null, new Uint8Array(4 * modes), new Array(4 * modes).fill(0)])
     assert.throws(() => face.shaderModes(out), {name: 'TypeError', message: /written to an Int16Array/});
+});
+
+test('positions and normals are not written over each other', async () => {
+  const face = await load(), count = 3 * face.vertexCount, both = new Float32Array(2 * count);
+  const shared = [both, new Float32Array(both.buffer, 4 * count - 4, count), new Float64Array(both.buffer, 0, count)];
+  for (const normals of shared)
+    for (const write of [() => face.evaluate(both, normals), () => face.evaluate(normals, both)])
+      assert.throws(write, {name: 'RangeError', message: /to different places\.$/});
+  face.evaluate(both, both.subarray(count));
+  const {positions, normals} = evaluate(face);
+  assert.deepEqual(both, Float32Array.of(...positions, ...normals));
 });
 
 test('weights and drives of another shape are refused, not passed over', async () => {

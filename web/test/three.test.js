@@ -304,6 +304,16 @@ test('who listens to something else does not show what clones share', options, a
   assert.deepEqual(gone, [true]);
 });
 
+test('cuts show at once, also where time stands still', options, async () => {
+  const mesh = await load();
+  mesh.moveTo({jawOpen: 1}, 'cut');
+  mesh.moveTo({browInnerUp: 1}, {kind: 'spring', frequency: 2});
+  mesh.update();
+  assert.equal(mesh.weights.jawOpen, 1);
+  assert.equal(mesh.weights.browInnerUp, 0);
+  assert.ok(mesh.advance(0.1));
+});
+
 test('a mesh makes ready to move', options, async () => {
   const mesh = await load(), before = mesh.face.memoryBytes;
   mesh.prepare();
