@@ -101,6 +101,75 @@ TEST(BudgetWriter, MixesTextureCoordinatesAndContinuesThemBeyondSeams) {
   }
 }
 
+/// The small face with a seam down its middle, whose vertices are there twice. Joint 1 moves it
+/// more and more from x = 0 to 2.
+Glb seamedFace() {
+  Glb glb = smallFace();
+  std::vector<Vec3> positions, deltas;
+  std::vector<Vec2> texcoords, places;
+  std::vector<float> weights;
+  std::vector<std::uint16_t> indices;
+  for (const bool right : {false, true}) {
+    const auto first = static_cast<int>(positions.size());
+    for (int v = 0; v < 9; ++v) {
+      const Vec3 p = sheetPositions()[v];
+      positions.push_back(p), deltas.push_back(openDeltas()[v]), places.push_back({p.x, p.y});
+      texcoords.push_back(right ? Vec2{p.y / 4 + 0.5, p.x / 4} : Vec2{p.x / 2, p.y / 2});
+      for (const double w : {1 - p.x / 2, p.x / 2, 0.0, 0.0})
+        weights.push_back(static_cast<float>(w));
+    }
+    for (std::size_t k = 0; k < sheetIndices().size(); ++k)
+      if (k / 6 % 2 == right)
+        indices.push_back(static_cast<std::uint16_t>(first + sheetIndices()[k]));
+  }
+  std::vector<std::uint8_t> joints;
+  for (int v = 0; v < 18; ++v) joints.insert(joints.end(), {0, 1, 0, 0});
+  const Json attributes{
+      {"POSITION", glb.addVectors(positions)},
+      {"TEXCOORD_0", glb.addTexcoords(texcoords)},
+      {"TEXCOORD_1", glb.addTexcoords(places)},
+      {"JOINTS_0", glb.addAccessor(glb.addView(bytesOf(joints)), 5121, "VEC4", 18)},
+      {"WEIGHTS_0", glb.addAccessor(glb.addView(bytesOf(weights)), 5126, "VEC4", 18)}};
+  glb.primitive() = {
+      {"attributes", attributes},
+      {"indices", glb.addIndices(indices)},
+      {"targets", Json::array({Json::object({{"POSITION", glb.addVectors(deltas)}})})}};
+  return glb;
+}
+
+TEST(BudgetWriter, SeesTrianglesFromOneSideOfASeam) {
+  for (const double length : {kCoarse, kFine}) {
+    const Written glb = Budgeted(inOnePatch(seamedFace()), length).written();
+    const std::vector<double> t = glb.numbers(glb.attribute("TEXCOORD_0")),
+                              weights = glb.numbers(glb.attribute("WEIGHTS_0")),
+                              joints = glb.stored(glb.attribute("JOINTS_0"));
+    const std::vector<Vec2> at = placesIn(glb);
+    const std::vector<Index> indices = glb.indices();
+    int beyond = 0;
+    for (std::size_t k = 0; k < indices.size(); k += 3) {
+      const auto isOn = [&](bool right) {
+        return std::ranges::all_of(std::span(indices).subspan(k, 3), [&](Index v) {
+          const Vec2 expected =
+              right ? Vec2{at[v].y / 4 + 0.5, at[v].x / 4} : Vec2{at[v].x / 2, at[v].y / 2};
+          return std::hypot(t[2 * v] - expected.x, t[2 * v + 1] - expected.y) < 1e-6;
+        });
+      };
+      const bool right = isOn(true);
+      EXPECT_NE(right, isOn(false));
+      for (std::size_t c = k; c < k + 3; ++c) {
+        const Index v = indices[c];
+        const double held = right ? std::max(at[v].x, 1.0) : std::min(at[v].x, 1.0);
+        beyond += held != at[v].x;
+        double share = 0;
+        for (std::size_t j = 4 * static_cast<std::size_t>(v), end = j + 4; j < end; ++j)
+          if (joints[j] == 1) share += weights[j];
+        EXPECT_NEAR(share, held / 2, 1e-6) << "joints stay as they are at the seam";
+      }
+    }
+    EXPECT_GT(beyond, 0);
+  }
+}
+
 TEST(BudgetWriter, SharesVerticesWhereNoSeamIs) {
   Glb source = smallFace();
   addPlaces(source);
@@ -157,7 +226,10 @@ TEST(BudgetWriter, TiesVerticesToTheJointsWhereTheyLie) {
   }
 }
 
-TEST(BudgetWriter, KeepsPrimitivesThatNoTriangleIsLeftFor) {
+class LostPrimitives : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(BudgetWriter, LostPrimitives, ::testing::Bool());
+
+TEST_P(LostPrimitives, ShowAPoint) {
   Glb source = smallFace();
   const std::vector<std::uint16_t> all = sheetIndices();
   std::vector<std::uint16_t> diagonal, rest;
@@ -165,12 +237,15 @@ TEST(BudgetWriter, KeepsPrimitivesThatNoTriangleIsLeftFor) {
     (k / 6 == 0 || k / 6 == 3 ? diagonal : rest).push_back(all[k]);
   Json first = source.primitive(), second = first;
   first["indices"] = source.addIndices(diagonal), second["indices"] = source.addIndices(rest);
+  if (GetParam())  // vertices of its own
+    second["attributes"]["POSITION"] = source.addVectors(sheetPositions());
   source.json["meshes"][0]["primitives"] = Json::array({first, second});
   const Written glb = Budgeted(inOnePatch(source), kCoarse).written();
   std::multiset<std::size_t> counts;
   for (std::size_t p = 0; p < 2; ++p) {
     const std::vector<Index> indices = glb.indices(0, p);
     counts.insert(std::set<Index>(indices.begin(), indices.end()).size());
+    EXPECT_GT(glb.accessor(glb.attribute("POSITION", 0, p))["count"], std::ranges::max(indices));
   }
   EXPECT_EQ(counts, (std::multiset<std::size_t>{1, 6}))
       << "one of them shows a point, the other both triangles, as a seam parts them";

@@ -160,6 +160,7 @@ test('the validator has no more to say than against the source', async () => {
       .filter(({ severity }) => severity < 2).map(({ code, pointer }) => `${code} ${pointer}`);
   const known = await complaints(source);
   const ways = [['export'], ['export', '--lod', '3'], ['export', '--quantize'], ['export', '--morph-normals', '--quantize', '--lod', '2'],
+                ['export', '--vertices', '3000', '--morph-normals'], ['export', '--edge-length', '0.3', '--quantize'],
                 ['animate', '--to', 'jawOpen=1,tilt=1', '--law', 'accelerate-brake']];
   for (const [command, ...options] of ways) {
     const file = inWork('way.glb');
