@@ -14,6 +14,7 @@
 #include "codec/loop_images.hpp"
 #include "codec/numbers.hpp"
 #include "codec/symbols.hpp"
+#include "surface/wireframe_checks.hpp"
 
 namespace sweepface::codec {
 
@@ -172,7 +173,8 @@ class LoopCoder {
         return;
       }
       side_ += ends;
-      if (loop_.size() > 2 * w_.arcs.size()) s_.refuse("a patch is not closed");
+      if (!kWrites<Coder> && loop_.size() >= kMostArcsAround)
+        s_.refuse("a patch has too many arcs around it");
     }
   }
 

@@ -57,6 +57,8 @@ void readPatches(Reader& in, Wireframe& w) {
         w.loops.push_back(last = in.step(last, 0, halves, "half-arc"));
     }
     patch.sides[4] = static_cast<Index>(w.loops.size());
+    if (patch.sides[4] - patch.sides[0] > kMostArcsAround)
+      in.refuse("a patch has too many arcs around it");
     w.patches.push_back(patch);
   }
 }

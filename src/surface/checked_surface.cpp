@@ -25,6 +25,8 @@ Result<void> checkLists(const Wireframe& w) {
     const auto& sides = w.patches[p].sides;
     if (sides[0] != begin) return fail("patch ", p, " does not begin where the one before it ends");
     begin = sides[4];
+    if (begin - sides[0] > kMostArcsAround)
+      return fail("patch ", p, " has more than ", kMostArcsAround, " arcs around it; divide it");
   }
   if (begin != static_cast<Index>(w.loops.size())) return fail("the loops go on after all patches");
   return {};

@@ -17,6 +17,9 @@ inline bool isClosed(JetMask mask) {
   return true;
 }
 
+/// Most arcs around a patch: whoever looks for a place on one goes along all of them.
+inline constexpr Index kMostArcsAround = 4096;
+
 /// The first arc that bounds no patch, or -1.
 inline Index idleArc(const Wireframe& w) {
   std::vector<char> bounds(w.arcs.size());

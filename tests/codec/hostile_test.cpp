@@ -492,6 +492,29 @@ TEST(Hostile, WireframesOfMoreThanTheyCanUseAreRefused) {
   EXPECT_NE(problemWith(wireframe).find("a value is not finite"), std::string::npos);
 }
 
+/// A patch whose first side is cut into this many arcs.
+Wireframe combed(Index arcs) {
+  Wireframe w = onePatch(arcs, 1);
+  for (Index k = 1; k < arcs; ++k) w.nodes.push_back({w.points++, kPosition});
+  w.arcs[0] = arc(0, 4, 1, 0);
+  w.loops = {0};
+  for (Index k = 1; k < arcs; ++k) {
+    w.loops.push_back(static_cast<HalfArc>(2 * w.arcs.size()));
+    w.arcs.push_back(arc(3 + k, k + 1 < arcs ? 4 + k : 1, 1, 0));
+  }
+  w.loops.insert(w.loops.end(), {2, 5, 6});
+  w.patches = {{{0, arcs, arcs + 1, arcs + 2, arcs + 3}}};
+  return w;
+}
+
+TEST(Hostile, PatchesOfMoreArcsThanOneLooksAlongAreRefused) {
+  EXPECT_NE(problemWith(combed(4093)).find("is no T of three arcs"), std::string::npos);
+  EXPECT_NE(problemWith(combed(4094)).find("too many arcs around it"), std::string::npos);
+  const auto made = Surface::make(combed(4094));
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message, "patch 0 has more than 4096 arcs around it; divide it");
+}
+
 // Sums of such would be infinite, and differences of those no numbers.
 TEST(Hostile, ExactVectorsBeyondSinglePrecisionAreRefused) {
   Rig rig = makeRig(onePatch(2, 2));
