@@ -171,7 +171,7 @@ Result<void> checkKind(const ExportArguments& a) {
   if (isFolder && a.budget.isGiven())
     return fail(
         "A budget of vertices, error or edge length is for one file; name an .obj, .glb or .usda.");
-  if (isFolder && !a.weights.empty())
+  if (isFolder && a.hasWeights)
     return fail("A folder gets every target by itself; leave --weights out, or name an .obj file.");
   if ((isRig || isFolder) && !a.hasWeights && (a.following.combine || !a.following.limits.empty()))
     return fail(fmt::format(

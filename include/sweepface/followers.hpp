@@ -40,7 +40,7 @@ class Followers {
   /// Replaces the weights [K] of all followers, and of leaders that hand over to in-betweens.
   /// Products and arcs use the weights of their leaders as they were set, or, for leaders that are
   /// followers themselves, as they follow: there may be products of in-betweens, and arcs of both.
-  /// Allocates nothing.
+  /// All weights are then within ±1,000,000. Allocates nothing.
   void apply(std::span<double> weights) const noexcept;
 
  private:
@@ -60,6 +60,7 @@ class Followers {
   void orderChains();
   static void handOver(const Chain& chain, std::span<double> weights) noexcept;
 
+  std::vector<Index> ignored_;             // in-betweens where there is another one
   std::vector<Follower> products_, arcs_;  // by leaders that are set
   std::vector<Chain> chains_;
   std::vector<Follower> lateArcs_;  // by leaders that follow

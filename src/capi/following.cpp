@@ -18,8 +18,5 @@ const Weights& sweepface::capi::followAll(const Following& following, sweepface_
       following.eyes->apply(region);
     if (following.followers) following.followers->apply(region);
   }
-  // Products of large weights may exceed what an evaluation accepts or, of infinity and 0, be none.
-  for (double& w : face.followed)
-    w = w == w ? std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT) : 0;
   return face.followed;
 }

@@ -57,8 +57,9 @@ class QuadWalk {
   Index columns_;
 };
 
-/// Calls `visit(triangle)` for every triangle of a tessellation with a density, patch by patch. All
-/// three places are seen from the triangle's middle; `areJoined` is QuadWalk's.
+/// Calls `visit(triangle)` for every triangle of a tessellation with a density, patch by patch,
+/// that has three different vertices. All three places are seen from the triangle's middle;
+/// `areJoined` is QuadWalk's.
 template <typename AreJoined, typename Visit>
 void forEachTriangle(const Surface& surface, const Tessellation& grid, const AreJoined& areJoined,
                      Visit visit) {
@@ -68,6 +69,9 @@ void forEachTriangle(const Surface& surface, const Tessellation& grid, const Are
     const QuadWalk walk(areJoined, first, m);
     const PatchMesh mesh = grid.patchMesh(p);
     for (const auto& corners : mesh.triangles) {
+      const auto vertexAt = [&](int k) { return mesh.points[corners[k]].vertex; };
+      if (vertexAt(0) == vertexAt(1) || vertexAt(1) == vertexAt(2) || vertexAt(2) == vertexAt(0))
+        continue;
       double u = 0, v = 0;
       for (const Index k : corners)
         u += mesh.points[k].u.value() / 3, v += mesh.points[k].v.value() / 3;

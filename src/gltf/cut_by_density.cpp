@@ -23,9 +23,8 @@ Result<FineMesh> cutByDensity(const Rig& rig, const BoundScene& scene, const Tes
   };
   FineMeshBuilder builder(scene);
   forEachTriangle(rig.surface, grid, joined, [&](const DensityTriangle& triangle) {
-    const auto [a, b, c] = triangle.vertices;
     const Index part = quads->partOf(triangle.middle);
-    if (part < 0 || a == b || b == c || c == a) return;
+    if (part < 0) return;
     std::array<Index, 3> corners{};
     for (int k = 0; k < 3; ++k) {
       const auto& [quad, i, m, j, n] = triangle.places[k];

@@ -35,7 +35,9 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
 Result<void> checkLod(const Surface& surface, Index lod) {
   const auto quads = static_cast<double>(surface.wireframe().quadCount());
   if (24 * quads * lod * lod < 4e9) return {};
-  return fail("The face would need more than the 4 GiB of a GLB; choose a lower level of detail.");
+  return fail(
+      "The face would need more than the 4 GiB of a GLB; choose a lower level of detail or a "
+      "smaller budget.");
 }
 
 /// Whether the file has the vertices of the rig's source, or others where the grid's are.
@@ -119,7 +121,8 @@ class GlbWriter {
     std::string bytes = formatContainer(document.json, document.buffers[0]);
     if (bytes.size() >= beyond)
       return fail(
-          "The file would be larger than the 4 GiB of a GLB; choose a lower level of detail.");
+          "The file would be larger than the 4 GiB of a GLB; choose a lower level of detail or a "
+          "smaller budget.");
     return bytes;
   }
 
@@ -162,9 +165,9 @@ Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   const io::OutputGrid grid(rig, options.lod, options.grid);
   // A scene's vertices are those of the source in their order, and only by its quads can it be cut.
   const bool keepsScene = !rig.scene.empty() && rig.source.ownOrder && knowsQuads(rig);
-  const bool cuts = options.lod > 0 || (options.grid && keepsScene);
-  std::optional<Rig> other =
-      io::withOtherMesh(rig, options.lod, keepsScene ? nullptr : options.grid);
+  const Tessellation* const ownMesh = keepsScene ? nullptr : options.grid;
+  const bool cuts = options.lod > 0 || options.grid != ownMesh;
+  std::optional<Rig> other = io::withOtherMesh(rig, options.lod, ownMesh);
   if (!other && !rig.scene.empty() && !rig.source.ownOrder) other = rig;
   if (other) other->scene.clear();
   return gltf::GlbWriter(other ? *other : rig, options, grid.get(),

@@ -142,7 +142,8 @@ Result<Column> mixed(const Document& document, const Accessor& attribute, Meanin
   if (!values) return std::unexpected(values.error());
   const std::size_t width = attribute.components();
   const bool isTexcoord = meaning == Meaning::texcoord;
-  const bool isKind = !isTexcoord && attribute.type != Component::float32 && !attribute.normalized;
+  const bool isCategory =
+      !isTexcoord && attribute.type != Component::float32 && !attribute.normalized;
   std::vector<double> result;
   result.reserve(places.size() * width);
   for (const Mix& mix : places) {
@@ -151,7 +152,7 @@ Result<Column> mixed(const Document& document, const Accessor& attribute, Meanin
       const auto value = [&](Index vertex) {
         return (*values)[static_cast<std::size_t>(vertex) * width + c];
       };
-      if (isKind || mix.isVertex()) {
+      if (isCategory || mix.isVertex()) {
         result.push_back(value(nearest(mix)));
         continue;
       }

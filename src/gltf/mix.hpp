@@ -25,6 +25,7 @@ struct Mix {
                     Index n);
   /// Whether it is just a corner.
   bool isVertex() const { return u == 0 && v == 0; }
+  bool isBeyond() const { return !(u >= 0 && u <= 1 && v >= 0 && v <= 1); }
   std::array<double, 4> weights() const {
     return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
   }

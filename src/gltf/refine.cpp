@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "gltf/fine_mesh.hpp"
+#include "gltf/homes.hpp"
 #include "gltf/same_vertices.hpp"
 #include "gltf/skins.hpp"
 
@@ -15,15 +16,22 @@ bool isSkin(std::string_view name) {
   return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
 }
 
+bool isTexcoord(std::string_view name) { return name.starts_with("TEXCOORD_"); }
+
 class Refiner {
  public:
   Refiner(BoundScene& scene, const FineMesh& mesh, Slots& slots)
-      : scene_(scene), mesh_(mesh), slots_(slots) {}
+      : scene_(scene), mesh_(mesh), slots_(slots), homes_(scene.parts, mesh) {
+    firstParts_.resize(scene.parts.runs.size());
+    for (std::size_t p = scene.parts.parts.size(); p-- > 0;)
+      firstParts_[scene.parts.parts[p].run] = p;
+  }
 
   Result<void> refine() {
     // Everything is read before anything is overwritten: parts may share accessors.
     for (const Part& part : scene_.parts.parts)
       if (auto ok = mix(part); !ok) return ok;
+    for (std::size_t p = 0; p < scene_.parts.parts.size(); ++p) bringHome(p);
     for (auto& [place, value] : values_)
       value.accessor = slots_.put(std::get<1>(place), value.column, Use::vertices);
     for (std::size_t p = 0; p < scene_.parts.parts.size(); ++p) rewrite(p);
@@ -31,8 +39,10 @@ class Refiner {
   }
 
  private:
-  /// Run, accessor, and the set of joints and weights that it is part of, or 0 if it is in none.
+  /// Run, accessor, and what it is there: texture coordinates, part of a set of joints and weights
+  /// (numbered from kOther on), or something else.
   using Place = std::tuple<std::size_t, std::size_t, std::size_t>;
+  static constexpr std::size_t kTexcoord = 0, kOther = 1;
   struct Value {
     Column column;
     std::size_t accessor = 0;  // where it is now
@@ -68,16 +78,16 @@ class Refiner {
         attributes.erase(name);
         continue;
       }
-      const auto [value, isNew] = values_.try_emplace(Place{run, accessor->index, 0});
+      const auto meaning = isTexcoord(name) ? Meaning::texcoord : Meaning::other;
+      const auto [value, isNew] = values_.try_emplace(Place{run, accessor->index, kindOf(name)});
       if (!isNew) continue;
-      const auto meaning = name.starts_with("TEXCOORD_") ? Meaning::texcoord : Meaning::other;
       auto column = mixed(scene_.document, *accessor, meaning, mesh_.runs[run].places);
       if (!column) return std::unexpected(column.error());
       bytes_ += column->bytes.size();
       if (bytes_ > mostBytes)
         return fail(
             "The face's attributes would need more than the 4 GiB of a GLB; choose a lower "
-            "level of detail.");
+            "level of detail or a smaller budget.");
       value->second.column = std::move(*column);
     }
     return {};
@@ -124,6 +134,78 @@ class Refiner {
     return first;
   }
 
+  static std::size_t kindOf(std::string_view name) { return isTexcoord(name) ? kTexcoord : kOther; }
+
+  /// Gives vertices that triangles see beyond a seam what they have at home, so that all copies of
+  /// one are bound and coloured alike. Texture coordinates alone go on beyond seams.
+  void bringHome(std::size_t number) {
+    const std::size_t run = scene_.parts.parts[number].run;
+    std::map<std::size_t, std::vector<Pair>> pairs;  // by the run of the home
+    for (const Index stranger : homes_.strangers(run)) {
+      const Home home = homes_.of(run, stranger);
+      const auto [known, isNew] = pairs.try_emplace(home.run);
+      if (isNew) known->second = pairsOf(number, home.run == run ? number : firstParts_[home.run]);
+      for (const auto& [to, from] : known->second) {
+        const std::size_t size = to->elementSize();
+        to->bytes.replace(size * static_cast<std::size_t>(stranger), size, from->bytes,
+                          size * static_cast<std::size_t>(home.vertex), size);
+      }
+    }
+  }
+
+  struct Pair {
+    Column* to;
+    const Column* from;
+  };
+  /// The columns of one part that another part has, too, in the same type. Joints and weights only
+  /// if it has all of them.
+  std::vector<Pair> pairsOf(std::size_t part, std::size_t other) {
+    std::vector<Pair> pairs, skin;
+    bool sharesSkin = skinSize(part) == skinSize(other);
+    for (std::size_t h = 0, count = std::min(holderCount(part), holderCount(other)); h < count; ++h)
+      for (const auto& [name, index] : holderAt(part, h).items()) {
+        Column* const to = isTexcoord(name) ? nullptr : columnOf(part, h, name);
+        if (!to) continue;
+        const Column* const from = columnOf(other, h, name);
+        const bool agrees = from && from->type == to->type && from->width == to->width &&
+                            from->normalized == to->normalized;
+        if (agrees) (isSkin(name) ? skin : pairs).push_back({to, from});
+        if (isSkin(name)) sharesSkin = sharesSkin && agrees;
+      }
+    if (sharesSkin) pairs.insert(pairs.end(), skin.begin(), skin.end());
+    return pairs;
+  }
+
+  std::size_t skinSize(std::size_t part) const {
+    const auto& attributes = holderAt(part, 0).items();
+    return static_cast<std::size_t>(
+        std::count_if(attributes.begin(), attributes.end(),
+                      [](const auto& attribute) { return isSkin(attribute.key()); }));
+  }
+
+  // What has attributes: the primitive itself, then its targets.
+  const Json& primitiveAt(std::size_t part) const {
+    return primitiveOf(scene_.document, scene_.parts, scene_.parts.parts[part]);
+  }
+  std::size_t holderCount(std::size_t part) const {
+    return 1 + listOf(primitiveAt(part), "targets").size();
+  }
+  const Json& holderAt(std::size_t part, std::size_t holder) const {
+    return holder == 0 ? *find(primitiveAt(part), "attributes")
+                       : listOf(primitiveAt(part), "targets")[holder - 1];
+  }
+  /// The column of an attribute, if it has one here.
+  Column* columnOf(std::size_t part, std::size_t holder, const std::string& name) {
+    const Json* const index = find(holderAt(part, holder), name);
+    if (!index) return nullptr;
+    const std::size_t kind = isSkin(name)
+                                 ? firstSets_[part] + std::stoul(name.substr(name.find('_') + 1))
+                                 : kindOf(name);
+    const auto value =
+        values_.find({scene_.parts.parts[part].run, index->get<std::size_t>(), kind});
+    return value == values_.end() ? nullptr : &value->second.column;
+  }
+
   void rewrite(std::size_t number) {
     const Part& part = scene_.parts.parts[number];
     Json& primitive = primitiveOf(scene_.document, scene_.parts, part);
@@ -147,7 +229,7 @@ class Refiner {
   void point(std::size_t run, Json& attributes) {
     for (auto& [name, number] : attributes.items()) {
       if (isSkin(name)) continue;
-      const auto value = values_.find({run, number.get<std::size_t>(), 0});
+      const auto value = values_.find({run, number.get<std::size_t>(), kindOf(name)});
       if (value != values_.end()) number = value->second.accessor;
     }
   }
@@ -166,7 +248,9 @@ class Refiner {
   std::map<Place, Value> values_;
   std::map<std::vector<std::size_t>, std::size_t> skins_;  // run, accessors: their first set
   std::vector<std::size_t> firstSets_;                     // [parts]
-  std::size_t sets_ = 0;
+  std::vector<std::size_t> firstParts_;                    // [runs] the first part of each
+  std::size_t sets_ = kOther;
+  Homes homes_;
   std::size_t bytes_ = 0;
 };
 

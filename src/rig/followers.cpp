@@ -9,6 +9,8 @@
 namespace sweepface {
 namespace {
 
+constexpr double kMostWeight = 1e6;
+
 /// Finds the followers that the names of targets imply.
 class NameReader {
  public:
@@ -104,7 +106,6 @@ Followers::Followers(std::vector<Follower> followers) {
     const auto isBetween = [&](Index t) { return is(t, Follower::Kind::inBetween); };
     if (follower.kind == Follower::Kind::product) {
       products_.push_back(follower);
-      std::erase_if(products_.back().leaders, isBetween);  // they become factors of chains
     } else if (follower.kind == Follower::Kind::arc) {
       const Index leader = follower.leaders[0];
       const bool hasStops = std::ranges::any_of(followers, [&](const Follower& f) {
@@ -117,18 +118,23 @@ Followers::Followers(std::vector<Follower> followers) {
     } else {
       auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
       if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}, 0});
-      // If two targets stand for the same stop, the first counts, and the other stays at 0.
+      // If two targets stand for the same stop, the first counts.
       if (chain->stops.empty() || chain->stops.back().at != follower.at)
         chain->stops.push_back(follower);
       else
-        arcs_.push_back({Follower::Kind::arc, follower.target, {}, 0});
+        ignored_.push_back(follower.target);
     }
   }
-  for (const Follower& product : followers)
-    if (product.kind == Follower::Kind::product)
-      for (const Index leader : product.leaders)
-        for (Chain& chain : chains_)
-          if (chain.gives(leader)) chain.factors.push_back({leader, product.target});
+  for (Follower& product : products_)
+    std::erase_if(product.leaders, [&](Index leader) {  // in-betweens become factors of chains
+      bool isGiven = false;
+      for (Chain& chain : chains_) {
+        if (!chain.gives(leader)) continue;
+        chain.factors.push_back({leader, product.target});
+        isGiven = true;
+      }
+      return isGiven;
+    });
   orderChains();
 }
 
@@ -164,6 +170,7 @@ void Followers::apply(std::span<double> weights) const noexcept {
       weights[arc.target] = 4 * w * (1 - w);
     }
   };
+  for (const Index target : ignored_) weights[target] = 0;
   for (const Follower& product : products_) {
     double& weight = weights[product.target] = 1;
     for (const Index leader : product.leaders) weight *= weights[leader];
@@ -174,6 +181,8 @@ void Followers::apply(std::span<double> weights) const noexcept {
     for (const auto& [leader, product] : chain.factors) weights[product] *= weights[leader];
   }
   bend(lateArcs_);
+  // Products of large weights may be too large to evaluate or, of infinity and 0, no number.
+  for (double& w : weights) w = w == w ? std::clamp(w, -kMostWeight, kMostWeight) : 0;
 }
 
 // Linear between neighbouring stops, the outermost being the neutral and the leader itself; the

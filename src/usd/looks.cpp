@@ -53,6 +53,14 @@ const Json& extensionOf(const Json& object, std::string_view name) {
   return memberOf(memberOf(object, "extensions"), name);
 }
 
+/// With KHR_materials_specular, or if it is 0, the index does not mean what it does in USD.
+double refractionOf(const Json& material) {
+  const double usual = Look{}.refraction;
+  if (!extensionOf(material, "KHR_materials_specular").is_null()) return usual;
+  const double index = numberOf(extensionOf(material, "KHR_materials_ior"), "ior", usual);
+  return index >= 1 && index <= 1e6 ? index : usual;
+}
+
 class SceneLooks {
  public:
   SceneLooks(const gltf::Document& document, bool withImages)
@@ -86,8 +94,7 @@ class SceneLooks {
                                         "emissiveStrength", 1),
                                0.0, 1e6) *
                     colourOf(material, "emissiveFactor", {});
-    look.refraction =
-        std::clamp(numberOf(extensionOf(material, "KHR_materials_ior"), "ior", 1.5), 1.0, 1e6);
+    look.refraction = refractionOf(material);
     look.colourMap = mapOf(base, base);
     look.roughnessMap = mapOf(memberOf(pbr, "metallicRoughnessTexture"), base);
     look.normalMap = mapOf(memberOf(material, "normalTexture"), base);
@@ -110,6 +117,8 @@ class SceneLooks {
     look.coatMap = mapOf(memberOf(coat, "clearcoatTexture"), base);
     look.coatRoughnessMap = mapOf(memberOf(coat, "clearcoatRoughnessTexture"), base);
     if (gltf::find(coat, "clearcoatTexture") && look.coatMap.image < 0) look.coat = 0;
+    if (gltf::find(coat, "clearcoatRoughnessTexture") && look.coatRoughnessMap.image < 0)
+      look.coatRoughness = 0;
   }
 
   static const Json& transformOf(const Json& map) {

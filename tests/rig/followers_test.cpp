@@ -1,6 +1,7 @@
 #include "sweepface/followers.hpp"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "allocations.hpp"
 
@@ -88,6 +89,20 @@ TEST(Followers, inBetweensThatAreThereTwiceHandOverOnce) {
   const auto at = [&](double w) { return applied(followers, {w, 9, 9}); };
   EXPECT_EQ(at(0.5), (std::vector<double>{0, 1, 0}));
   EXPECT_EQ(at(0.75), (std::vector<double>{0.5, 0.5, 0}));
+}
+
+TEST(Followers, productsOfInBetweensThatAreThereTwiceAreStill) {
+  const std::vector<Follower> followers{{Kind::inBetween, 1, {0}, 0.5},
+                                        {Kind::inBetween, 2, {0}, 0.5},
+                                        {Kind::product, 4, {2, 3}, 0}};
+  EXPECT_EQ(applied(followers, {0.5, 0, 9, 1, 9}), (std::vector<double>{0, 1, 0, 1, 0}));
+}
+
+TEST(Followers, areFiniteHoweverLargeLeadersAre) {
+  const std::vector<Follower> followers{{Kind::product, 2, {0, 1}, 0}};
+  EXPECT_EQ(applied(followers, {1e5, -1e5, 0})[2], -1e6);
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(applied(followers, {infinite, 0, 0}), (std::vector<double>{1e6, 0, 0}));
 }
 
 TEST(Followers, productsGoByTheWeightsThatWereSet) {

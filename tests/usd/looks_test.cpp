@@ -68,10 +68,14 @@ TEST(Looks, HaveClearLayersStrongLightsAndRefraction) {
   material(glb)["extensions"]["KHR_materials_clearcoat"]["clearcoatTexture"] = {{"index", 0}};
   EXPECT_EQ(lookOf(glb).coat, 0.75);
   EXPECT_EQ(lookOf(glb, false).coat, 0) << "its map is left out";
+  EXPECT_EQ(lookOf(glb, false).coatRoughness, 0);
   material(glb)["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}},
                                  {"KHR_materials_ior", {{"ior", 0}}}};
   EXPECT_EQ(lookOf(glb).emission, Vec3{});
-  EXPECT_EQ(lookOf(glb).refraction, 1);
+  EXPECT_EQ(lookOf(glb).refraction, 1.5);
+  material(glb)["extensions"] = {{"KHR_materials_specular", {{"specularFactor", 0.5}}},
+                                 {"KHR_materials_ior", {{"ior", 1000}}}};
+  EXPECT_EQ(lookOf(glb).refraction, 1.5);
 }
 
 TEST(Looks, AreToldApartWhereMaterialsHaveOneName) {
