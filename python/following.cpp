@@ -37,8 +37,6 @@ void Following::extend(std::span<const double> own, const HeadPose* look,
   limits_.apply(all);
   look ? eyes_.apply(*look, all) : eyes_.apply(all);
   followers_.apply(all);
-  // Products of large weights may be larger than a weight can be.
-  for (double& w : all) w = std::clamp(w, -kMostPlausibleWeight, kMostPlausibleWeight);
 }
 
 }  // namespace sweepface::python

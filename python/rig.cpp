@@ -224,9 +224,9 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr, "key_tolerance"_a = 0,
           "head"_a = false, "pivot"_a = py::none(),
           "Writes a GLB with the targets as morph targets, in the scene that came with the rig, if "
-          "one did. level 0: the source's vertices; N: every edge cut into N. Instead, a budget: "
-          "at "
-          "most so many vertices, no longer edges along curves, or no edge further than error from "
+          "one did. level 0: the source's vertices; N: every edge cut into N. Or a budget instead: "
+          "at most so many vertices, no longer edges along curves, or no edge further than error "
+          "from "
           "the surface. morph_normals writes normals of the targets, too; quantize stores whole "
           "numbers (KHR_mesh_quantization); weights are those at which the face is shown. A clip "
           "becomes an animation, in as few keys as keep its weights within key_tolerance, if that "
@@ -249,9 +249,9 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
           "Writes a .usda, or a .usdz with the images of its materials, with the targets as blend "
           "shapes of UsdSkel. A clip becomes a time sample for each of its frames, at 24 time "
-          "codes "
-          "a second if time_codes_per_second is not given. meters_per_unit 0: 1 for a rig with the "
-          "scene of a GLB, otherwise what its units are, or 0.01. The rest is as in save_glb.")
+          "codes a second if time_codes_per_second is not given. meters_per_unit 0: 1 for a rig "
+          "with the scene of a GLB, otherwise what its units are, or 0.01. The rest is as in "
+          "save_glb.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
            "Writes an expression as an OBJ, in the source's order, with the surface's normals.")
       .def("packed", &packed, "tolerance"_a = 0, py::kw_only(), "texture_bits"_a = 0,

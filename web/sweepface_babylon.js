@@ -8,6 +8,7 @@ import {SubMesh} from '@babylonjs/core/Meshes/subMesh.js';
 import {Sweepface} from './sweepface.js';
 import {ownRegions} from './sweepface_regions.js';
 import {twinOf} from './sweepface_twin.js';
+import {otherGeometry} from './sweepface_values.js';
 
 /** Plain materials, named as in the source; seen from both sides, as mouths and lashes are. */
 function materialsOf(face, scene) {
@@ -187,8 +188,7 @@ export class SweepfaceMesh extends Mesh {
   update(seconds = 0) {
     this.#pass(seconds);
     if (this.isDisposed() || !this.#stale) return;
-    if (this.getTotalVertices() !== this.face.vertexCount)
-      throw new Error(`The geometry must have the ${this.face.vertexCount} vertices of the face; change a copy of it.`);
+    if (this.getTotalVertices() !== this.face.vertexCount) throw otherGeometry(this.face);
     this.#evaluate();
     for (const {kind, values} of this.#vectors) this.updateVerticesData(kind, values);
     this.refreshBoundingInfo();

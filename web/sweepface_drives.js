@@ -27,13 +27,13 @@ const FAR = 1e12;
 export function faultOf(drive) {
   const {kind = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0} = drive;
   const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined
-    : 'A motion needs finite numbers; its goal, time or frequency is too large');
+    : 'A motion needs finite numbers; its goal, time or frequency is beyond what they hold');
   if (kind === 'cut') return;
   if (kind === 'spring') {
     const omega = 2 * Math.PI * frequency, sigma = damping * omega, force = omega ** 2 + sigma ** 2;
     return tooMuch(force, force * FAR, 2 * sigma * FAR) ??
            (frequency > 0 && damping >= 0 ? undefined
-                                          : 'A spring needs a frequency above 0 and a damping from 0');
+                                          : 'A spring needs a frequency greater than 0 and a damping of at least 0');
   }
   if (kind === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
     return 'A bounce keeps part of its speed: the restitution lies in [0, 1 - 1e-9]';

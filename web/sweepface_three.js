@@ -3,6 +3,7 @@ import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
 import {FaceMesh, faceFrom, geometryOf, show, standing} from './sweepface_mesh.js';
 import {ownRegions} from './sweepface_regions.js';
+import {otherGeometry} from './sweepface_values.js';
 
 export {animationFor} from './sweepface_animation.js';
 
@@ -20,9 +21,9 @@ export class SweepfaceMesh extends FaceMesh {
 
   /** The positions that follow the face. */
   #position() {
-    const {geometry: {attributes: {position}}, face: {vertexCount}} = this;
-    if (position?.count === vertexCount) return position;
-    throw new Error(`The geometry must have the ${vertexCount} vertices of the face; change a copy of it.`);
+    const {geometry: {attributes: {position}}, face} = this;
+    if (position?.count === face.vertexCount) return position;
+    throw otherGeometry(face);
   }
 
   [show]() {

@@ -42,3 +42,7 @@ export function known(options, keys, what) {
     if (!keys.includes(key)) throw new TypeError(`${what} has no option '${key}'; it has ${keys.join(', ')}.`);
   return options ?? {};
 }
+
+/** What is wrong with a geometry that was put in the place of a mesh's own. */
+export const otherGeometry = ({vertexCount}) =>
+  new Error(`The geometry must have the ${vertexCount} vertices of the face; change a copy of it.`);

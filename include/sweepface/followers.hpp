@@ -40,7 +40,7 @@ class Followers {
   /// Replaces the weights [K] of all followers, and of leaders that hand over to in-betweens.
   /// Products and arcs use the weights of their leaders as they were set, or, for leaders that are
   /// followers themselves, as they follow: there may be products of in-betweens, and arcs of both.
-  /// All weights are then within ±1,000,000. Allocates nothing.
+  /// All weights are then plausible (weights.hpp). Allocates nothing.
   void apply(std::span<double> weights) const noexcept;
 
  private:

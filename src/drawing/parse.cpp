@@ -7,6 +7,7 @@
 #include "codec/limits.hpp"
 #include "drawing/json_reader.hpp"
 #include "drawing/words.hpp"
+#include "io/single.hpp"
 #include "io/text.hpp"
 
 namespace sweepface {
@@ -128,7 +129,7 @@ class DrawingReader {
     in_.array(fmt::format("{}, three numbers", what), [&] {
       const TextPlace number = in_.place();
       const double value = in_.number("a number");
-      if (!io::isUsable(value)) in_.refuse(number, "a coordinate is beyond what a float can hold");
+      if (!io::isSingle(value)) in_.refuse(number, "a coordinate is beyond what a float can hold");
       if (count < 3) values[count] = value;
       ++count;
     });

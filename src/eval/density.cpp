@@ -172,8 +172,9 @@ Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
   const auto areTooMany = [&](std::int64_t fewest) {
     return static_cast<double>(fewest) > vertices;
   };
-  std::int64_t fewest = lines.count(lines.coarsest());
-  if (!areTooMany(fewest)) fewest = Tessellation(surface, lines.coarsest()).vertexCount();
+  const Density coarsest = lines.coarsest();
+  std::int64_t fewest = lines.count(coarsest);
+  if (!areTooMany(fewest)) fewest = Tessellation(surface, coarsest).vertexCount();
   if (areTooMany(fewest))
     return fail("The face has ", fewest, " vertices at least; allow so many.");
   for (double allowed = vertices;;) {

@@ -11,6 +11,7 @@
 
 #include "codec/limits.hpp"
 #include "codec/utf8.hpp"
+#include "io/single.hpp"
 #include "io/text.hpp"
 #include "mesh/check_indices.hpp"
 
@@ -101,11 +102,8 @@ Result<void> checkNames(const std::vector<MeshTarget>& targets) {
 
 /// Texture coordinates are played in single precision.
 Result<void> checkTexcoords(const std::vector<Vec2>& texcoords) {
-  constexpr double kMost = std::numeric_limits<float>::max();
-  const auto isFinite = [](const Vec2& t) {
-    return std::abs(t.x) <= kMost && std::abs(t.y) <= kMost;
-  };
-  const auto bad = std::ranges::find_if_not(texcoords, isFinite);
+  const auto bad =
+      std::ranges::find_if_not(texcoords, [](const Vec2& t) { return io::isSingle(t); });
   if (bad == texcoords.end()) return {};
   return fail("texture coordinate ", bad - texcoords.begin(),
               " of the mesh is not finite in single precision; give it a place in the texture");
@@ -115,7 +113,7 @@ Result<void> checkTexcoords(const std::vector<Vec2>& texcoords) {
 Result<void> checkDifferences(const MeshRig& source) {
   for (const MeshTarget& target : source.targets)
     for (std::size_t v = 0; v < target.positions.size(); ++v) {
-      if (!io::isUsable(target.positions[v] - source.neutral.positions[v]))
+      if (!io::isSingle(target.positions[v] - source.neutral.positions[v]))
         return fail("vertex ", v, " of the target ", io::inQuotes(target.name),
                     " is further from the neutral's than a file can tell; scale the meshes down");
     }
@@ -128,7 +126,7 @@ Result<void> checkSource(const MeshRig& source) {
   if (source.neutral.positions.empty())
     return fail("the neutral has no vertices; there is no surface to fit");
   if (auto ok = checkIndices(source); !ok) return ok;
-  if (!std::ranges::all_of(source.neutral.positions, [](const Vec3& p) { return io::isUsable(p); }))
+  if (!io::areSingle(source.neutral.positions))
     return fail("a vertex of the neutral is no place that a file could hold; scale the mesh down");
   if (auto ok = checkTexcoords(source.neutral.polygons.texcoords); !ok) return ok;
   if (auto ok = checkNames(source.targets); !ok) return ok;

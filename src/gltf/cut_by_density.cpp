@@ -3,26 +3,17 @@
 #include "gltf/scene_quads.hpp"
 
 namespace sweepface::gltf {
-namespace {
-
-/// Whether attributes go on from quad a to b, which lies beyond a's corners `next` and 2. Those of
-/// a part may be unknown at vertices that only another part shows.
-bool areJoined(const SceneQuads& quads, std::size_t a, std::size_t b, int next) {
-  if (quads.partOf(a) < 0 || quads.partOf(a) != quads.partOf(b)) return false;
-  const std::array<Index, 4>&v = quads.verticesOf(a), &w = quads.verticesOf(b);
-  return v[next] == w[0] && v[2] == w[4 - next];
-}
-
-}  // namespace
-
 Result<FineMesh> cutByDensity(const Rig& rig, const BoundScene& scene, const Tessellation& grid) {
   const auto quads = SceneQuads::find(rig, scene);
   if (!quads) return std::unexpected(quads.error());
-  const auto joined = [&](std::size_t a, std::size_t b, int next) {
-    return areJoined(*quads, a, b, next);
+  // Attributes of a part may be unknown at vertices that only another part shows.
+  const auto areJoined = [&](std::size_t a, std::size_t b, int next) {
+    const std::array<Index, 4>&v = quads->verticesOf(a), &w = quads->verticesOf(b);
+    return quads->partOf(a) >= 0 && quads->partOf(a) == quads->partOf(b) && v[next] == w[0] &&
+           v[2] == w[4 - next];
   };
   FineMeshBuilder builder(scene);
-  forEachTriangle(rig.surface, grid, joined, [&](const DensityTriangle& triangle) {
+  forEachTriangle(rig.surface, grid, areJoined, [&](const DensityTriangle& triangle) {
     const Index part = quads->partOf(triangle.middle);
     if (part < 0) return;
     std::array<Index, 3> corners{};

@@ -6,6 +6,7 @@
 
 #include "gltf/texcoords.hpp"
 #include "gltf/triangles.hpp"
+#include "io/single.hpp"
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
@@ -77,7 +78,7 @@ class RigReader {
     if (!positions) return std::unexpected(positions.error());
     for (const Vec3& p : *positions) {
       rig_.neutral.positions.push_back(meshOf(run).world.point(p));
-      if (!io::isUsable(rig_.neutral.positions.back())) return tooLarge(run.position);
+      if (!io::isSingle(rig_.neutral.positions.back())) return tooLarge(run.position);
     }
     return {};
   }
@@ -90,7 +91,7 @@ class RigReader {
       Vec3* const moved = &rig_.targets[meshOf(run).targets[t]].positions[run.first];
       for (std::size_t v = 0; v < run.count; ++v) {
         moved[v] += meshOf(run).world.direction((*deltas)[v]);
-        if (!io::isUsable(moved[v])) return tooLarge(*run.targets[t]);
+        if (!io::isSingle(moved[v])) return tooLarge(*run.targets[t]);
       }
     }
     return {};

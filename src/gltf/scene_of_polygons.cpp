@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <map>
 #include <tuple>
 
@@ -73,8 +72,7 @@ class SceneMaker {
     if (triangles_.empty())
       return fail("The face has no polygon with three different corners to export.");
     scene_.vertices = splitter_.vertices();
-    if (!std::ranges::all_of(polygons_.texcoords,
-                             [](const Vec2& t) { return io::areSingle(std::array{t.x, t.y}); }))
+    if (!io::areSingle(polygons_.texcoords))
       return fail("A texture coordinate is not a number that a glTF can hold.");
     describe();
     auto parts = findParts(scene_.document);

@@ -4,6 +4,7 @@
 
 #include "sweepface/io.hpp"
 
+#include "io/single.hpp"
 #include "io/target_shape.hpp"
 #include "io/text.hpp"
 
@@ -121,7 +122,7 @@ class ObjReader {
   bool readCoordinate(std::string_view word, double& coordinate) {
     const auto value = toNumber<double>(word);
     if (!value) return fail(fmt::format("{} is not a number or beyond range", inQuotes(word)));
-    if (!isUsable(*value))
+    if (!isSingle(*value))
       return fail(fmt::format("the coordinate {} is not finite or too large", inQuotes(word)));
     coordinate = *value;
     return true;

@@ -8,6 +8,7 @@
 
 #include "io/ply_body.hpp"
 #include "io/ply_header.hpp"
+#include "io/single.hpp"
 #include "io/target_shape.hpp"
 
 namespace sweepface {
@@ -152,7 +153,7 @@ class PlyReader {
   }
 
   bool checkCoordinate(double value) {
-    return isUsable(value) ||
+    return isSingle(value) ||
            failRow(fmt::format("the coordinate {} is not finite or too large", value));
   }
 

@@ -122,13 +122,6 @@ std::optional<Number> toNumber(std::string_view word) {
   return value;
 }
 
-/// Whether a float can hold a coordinate, which all later code relies on.
-inline bool isUsable(double coordinate) {
-  return std::abs(coordinate) <= std::numeric_limits<float>::max();
-}
-
-inline bool isUsable(const Vec3& p) { return isUsable(p.x) && isUsable(p.y) && isUsable(p.z); }
-
 /// Checks the frame rate of a recording with timecodes.
 inline Result<void> checkFrameRate(double framesPerSecond) {
   if (std::isfinite(framesPerSecond) && framesPerSecond > 0) return {};

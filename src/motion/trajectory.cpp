@@ -13,7 +13,8 @@ namespace {
 Result<void> checkNumbers(std::initializer_list<double> numbers) {
   for (const double x : numbers)
     if (!std::isfinite(x))
-      return failCall("A motion needs finite numbers; its goal, time or frequency is too large.");
+      return failCall(
+          "A motion needs finite numbers; its goal, time or frequency is beyond what they hold.");
   return {};
 }
 
@@ -200,7 +201,7 @@ Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
       !ok)
     return std::unexpected(ok.error());
   if (!(spring.frequency > 0) || !(spring.damping >= 0))
-    return failCall("A spring needs a frequency above 0 and a damping from 0.");
+    return failCall("A spring needs a frequency greater than 0 and a damping of at least 0.");
   return Trajectory(path::Swing{to, start.position, start.velocity, sigma, omega});
 }
 

@@ -9,8 +9,6 @@
 namespace sweepface {
 namespace {
 
-constexpr double kMostWeight = 1e6;
-
 /// Finds the followers that the names of targets imply.
 class NameReader {
  public:
@@ -182,7 +180,8 @@ void Followers::apply(std::span<double> weights) const noexcept {
   }
   bend(lateArcs_);
   // Products of large weights may be too large to evaluate or, of infinity and 0, no number.
-  for (double& w : weights) w = w == w ? std::clamp(w, -kMostWeight, kMostWeight) : 0;
+  for (double& w : weights)
+    w = w == w ? std::clamp(w, -kMostPlausibleWeight, kMostPlausibleWeight) : 0;
 }
 
 // Linear between neighbouring stops, the outermost being the neutral and the leader itself; the

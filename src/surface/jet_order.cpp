@@ -10,9 +10,6 @@ namespace {
 // size there are a dozen steps.
 constexpr int kMostSteps = 64;
 
-constexpr const char* kSides =
-    ": nodes on sides stand on each other's; make one a corner on both sides";
-
 // For each derived vector, the derived vectors that need it, in ascending order.
 class Dependents {
  public:
@@ -119,14 +116,18 @@ Result<JetTable> orderJets(const JetNumbers& numbers, const JetRows& rows,
     for (Index d : dependents.of(v))
       if (--waitsFor[d] == 0) ready.push_back(d);
   }
-  const char *why = " take too many steps", *advice = kSides;
+  const char *why = " take too many steps",
+             *advice = ": nodes on sides stand on each other's; make one a corner on both sides";
   if (node < 0) {
     if (table.stored.size() + ready.size() == static_cast<std::size_t>(vectors)) return table;
     const std::vector<Index> breakers = Circles(numbers, rows, connectivity, place).breakers();
     if (circle) *circle = breakers;
     node = breakers.front();
     why = " are derived from themselves";
-    if (connectivity.kinds[node] != NodeKind::hanging) advice = "; let it store its own";
+    advice = connectivity.kinds[node] == NodeKind::hanging
+                 ? ": nodes on sides stand on each other's in a circle; make one of them a corner "
+                   "on both sides"
+                 : "; let it store its own";
   }
   return fail("the derivatives at node ", node, why, advice);
 }

@@ -45,7 +45,7 @@ Result<void> MeshWriter::add(Text& text, const std::string& path, const std::str
                              const std::string& skeleton) const {
   if (faces_.empty()) return fail("The face has no polygon with three corners or more to export.");
   const std::vector<Vec3> points = placed(shapes_.neutral().positions);
-  if (!areSingle(points) || !areSingle(polygons_.texcoords)) return beyondFloats();
+  if (!io::areSingle(points) || !io::areSingle(polygons_.texcoords)) return beyondFloats();
   if (skeleton.empty())
     text.open("Mesh", name);
   else
@@ -159,7 +159,7 @@ bool MeshWriter::addBlendShape(Text& text, const std::string& prim, Index target
   text.set("uniform vector3f[] offsets", list(offsets));
   text.set("uniform int[] pointIndices", list(moved));
   text.close();
-  return areSingle(offsets);
+  return io::areSingle(offsets);
 }
 
 }  // namespace sweepface::usd

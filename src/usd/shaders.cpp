@@ -46,7 +46,8 @@ class Shaders {
     input("color3f inputs:diffuseColor", tuple(c), colour, "rgb");
     input("color3f inputs:emissiveColor", tuple(e),
           {"emission", look_.emissionMap, {e.x, e.y, e.z, 1}, {}, true}, "rgb");
-    if (look_.refraction != 1.5) text_.set("float inputs:ior", number(look_.refraction));
+    if (look_.refraction != Look{}.refraction)
+      text_.set("float inputs:ior", number(look_.refraction));
     const Reader rough{"rough", look_.roughnessMap, {1, look_.roughness, look_.metallic, 1}};
     input("float inputs:metallic", number(look_.metallic), rough, "b");
     if (has(look_.normalMap)) {

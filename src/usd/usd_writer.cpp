@@ -6,6 +6,7 @@
 #include "sweepface/usd.hpp"
 
 #include "io/rig_output.hpp"
+#include "io/single.hpp"
 #include "usd/archive.hpp"
 #include "usd/mesh.hpp"
 #include "usd/skeleton.hpp"
@@ -33,7 +34,7 @@ Result<void> check(const Clip& clip, const UsdOptions& options) {
         "The face has no targets to animate; convert it with the meshes of its expressions.");
   if (!std::ranges::all_of(clip.times, isPlausibleTime) || !increase(clip.times))
     return fail("The times of the clip do not increase, or are beyond 300 years.");
-  if (!areSingle(clip.weights))
+  if (!io::areSingle(clip.weights))
     return fail("A weight of the clip is too large for the single precision of USD.");
   return checkTimeCodes(clip.times, options);
 }
@@ -41,8 +42,8 @@ Result<void> check(const Clip& clip, const UsdOptions& options) {
 Result<void> check(const HeadTrack& head, const UsdOptions& options) {
   if (head.rotations.empty() || head.rotations.size() != head.times.size() ||
       !std::ranges::all_of(head.times, isPlausibleTime) || !increase(head.times) ||
-      !areSingle(std::array{head.pivot}) ||
-      !std::ranges::all_of(head.rotations, [](auto& q) { return areSingle(q); }))
+      !io::areSingle(std::array{head.pivot}) ||
+      !std::ranges::all_of(head.rotations, [](auto& q) { return io::areSingle(q); }))
     return fail("The head's rotation needs one for each of its increasing times.");
   return checkTimeCodes(head.times, options);
 }
@@ -50,7 +51,7 @@ Result<void> check(const HeadTrack& head, const UsdOptions& options) {
 Result<void> check(const Rig& rig, const UsdOptions& options) {
   const io::RigOutput output{options.lod, options.grid, options.weights, options.clip};
   if (auto ok = io::checkOutput(rig, output); !ok) return ok;
-  if (!areSingle(options.weights))
+  if (!io::areSingle(options.weights))
     return fail("A weight is too large for the single precision of USD.");
   if (!(options.timeCodesPerSecond > 0 && options.timeCodesPerSecond < 1e9))
     return fail("Time codes a second are a number above 0 and below 1,000,000,000.");

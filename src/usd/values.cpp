@@ -78,14 +78,4 @@ std::string list(std::span<const double> numbers) { return listOf(numbers); }
 std::string list(std::span<const Vec2> points) { return listOf(points); }
 std::string list(std::span<const Vec3> points) { return listOf(points); }
 
-bool areSingle(std::span<const Vec2> points) {
-  return std::ranges::all_of(points,
-                             [](const Vec2& p) { return io::isSingle(p.x) && io::isSingle(p.y); });
-}
-bool areSingle(std::span<const Vec3> points) {
-  return std::ranges::all_of(points, [](const Vec3& p) {
-    return io::isSingle(p.x) && io::isSingle(p.y) && io::isSingle(p.z);
-  });
-}
-
 }  // namespace sweepface::usd

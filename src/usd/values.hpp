@@ -7,8 +7,6 @@
 
 #include "sweepface/vec.hpp"
 
-#include "io/single.hpp"
-
 // Values as they stand in a USD layer. Numbers have single precision and as few digits as tell them
 // apart.
 namespace sweepface::usd {
@@ -24,10 +22,5 @@ std::string list(std::span<const Index> numbers);
 std::string list(std::span<const double> numbers);
 std::string list(std::span<const Vec2> points);
 std::string list(std::span<const Vec3> points);
-
-/// Whether single precision can hold them.
-using io::areSingle;
-bool areSingle(std::span<const Vec2> points);
-bool areSingle(std::span<const Vec3> points);
 
 }  // namespace sweepface::usd

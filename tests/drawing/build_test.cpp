@@ -385,7 +385,7 @@ TEST(TNodes, inACircleAreRefusedInWordsThatHelp) {
         {{"sides", {"b" + own, "a" + next, Json::array({"s" + next, "-i" + own}), "-s" + own}}});
   }
   const std::string why = refusal(drawing);
-  EXPECT_NE(why.find("stand on each other's"), std::string::npos) << why;
+  EXPECT_NE(why.find("stand on each other's in a circle"), std::string::npos) << why;
 }
 
 TEST(Names, ofOneThingAreNotWhatAnotherGoesBy) {

@@ -288,7 +288,7 @@ TEST(Circles, areRefusedAndNameANodeThatBreaksThem) {
     ASSERT_FALSE(circle.empty());
     EXPECT_TRUE(surface.error().message.ends_with(
         circle.front() < 8 ? "are derived from themselves; let it store its own"
-                           : "make one a corner on both sides"))
+                           : "make one of them a corner on both sides"))
         << surface.error().message;
     for (Index node : circle) {
       if (node >= 8) return;  // a T-node: it must become a crossing

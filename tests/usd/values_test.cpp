@@ -35,13 +35,5 @@ TEST(Lists, HaveCommasBetween) {
   EXPECT_EQ(list(std::vector<Vec3>{{1, 2, 3}}), "[(1, 2, 3)]");
 }
 
-TEST(Numbers, FitSinglePrecisionOrNot) {
-  EXPECT_TRUE(areSingle(std::vector{3e38, -3e38, 1e-300}));
-  EXPECT_FALSE(areSingle(std::vector{1.0, 3.5e38}));
-  EXPECT_FALSE(areSingle(std::vector{std::nan("")}));
-  EXPECT_FALSE(areSingle(std::vector<Vec3>{{0, -4e38, 0}}));
-  EXPECT_FALSE(areSingle(std::vector<Vec2>{{0, 4e38}}));
-}
-
 }  // namespace
 }  // namespace sweepface::usd

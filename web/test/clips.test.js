@@ -559,9 +559,9 @@ for (const [file, text, words] of [
            ...['"drive": "newton", "seconds": 1e-160', '"drive": "bounce", "seconds": 1e-160',
                '"drive": "linear-force", "seconds": 1e-103', '"frequency": 1e154', '"damping": 1e160',
                '"drive": "accelerate-brake", "seconds": 1e-10, "turn": 1e-290']
-             .map((drive) => [drive, 'events[0] cannot be: A motion needs finite numbers; its goal, time or frequency is ' +
-                             'too large.']),
-           ['"damping": -1', 'a damping from 0'], ['"frequency": 0', 'a frequency above 0']]
+             .map((drive) => [drive, 'events[0] cannot be: A motion needs finite numbers; its goal, time or frequency is beyond ' +
+                             'what they hold.']),
+           ['"damping": -1', 'a damping of at least 0'], ['"frequency": 0', 'a frequency greater than 0']]
          .map(([drive, words]) => ['t.json', `{"seconds": 1, "events": [{"at": 0, "to": {}, ${drive}}]}`, words]),
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": "x"}}]}', 'has a weight \'jawOpen\' that is not a number within ±1,000,000']])
   test(`${file} of ${JSON.stringify(text).slice(0, 60)} is refused in the tool's words`, () => {
