@@ -349,6 +349,13 @@ def write_face(shown, neutral, folder):
     return targets
 
 
+def levels_of(shown):
+    """How often an object is shown subdivided; at most twice, as more adds vertices to the same surface."""
+    levels = [modifier.levels for modifier in shown.modifiers if modifier.type == "SUBSURF" and modifier.show_viewport
+              and modifier.subdivision_type == "CATMULL_CLARK"]
+    return min(2, sum(levels))
+
+
 @contextmanager
 def objects_mode(shown):
     """Switches to object mode for a while: in edit mode Blender keeps an object's mesh elsewhere."""
@@ -410,10 +417,16 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
     tolerance: FloatProperty(name="Tolerance", description="How far any vertex may be off, in Blender's units; 0: 0.02 % of "
                              "the neutral's diagonal", default=0, min=0, precision=5)
     pack: BoolProperty(name="Pack", description="Make the file small: a hundredth as large, but slower to make", default=True)
+    subdivide: IntProperty(name="Subdivide", description="The mesh is the cage of a subdivision surface: save that, with "
+                           "every edge cut into 2 to the power of N; 0: save the mesh as it is", default=0, min=0, max=5)
 
     @classmethod
     def poll(cls, context):
         return context.active_object is not None and context.active_object.type == "MESH"
+
+    def invoke(self, context, event):
+        self.subdivide = levels_of(context.active_object)
+        return super().invoke(context, event)
 
     def work(self, context, folder):
         shown, path = context.active_object, path_of(self)
@@ -421,6 +434,7 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
         with objects_mode(shown):
             targets = write_face(shown, neutral, os.path.join(folder, "expressions"))
         options = (["--pack"] if self.pack else []) + (["--tolerance", self.tolerance] if self.tolerance else [])
+        options += ["--subdivide", self.subdivide] if self.subdivide else []
         said = yield from run_tool(self, "convert", neutral, *targets.values(), "-o", path, *options)
         if shown := bpy.data.objects.get(name):
             shown[SOURCE] = path

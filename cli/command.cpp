@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "sweepface/codec.hpp"
+#include "sweepface/subdivision.hpp"
 
 #include "file_names.hpp"
 #include "near_name.hpp"
@@ -101,16 +102,32 @@ CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description) {
   return app.add_option("--lod", lod, description)->transform(wholeNumber(1, 64))->type_name("N");
 }
 
-void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets) {
+std::vector<std::string> MeshArguments::files() const {
+  std::vector<std::string> files = targets;
+  if (!neutral.empty()) files.push_back(neutral);
+  return files;
+}
+
+CLI::Option* addSubdivide(CLI::App& app, int& levels) {
+  return app
+      .add_option("--subdivide", levels,
+                  "The meshes are cages of subdivision surfaces (Catmull-Clark): use their limit, "
+                  "with every edge cut into 2^N; N from 1 to 5")
+      ->transform(wholeNumber(1, kMostSubdivisions))
+      ->type_name("N");
+}
+
+void addMeshes(CLI::App& app, MeshArguments& meshes) {
   app.add_option(
-         "NEUTRAL", neutral,
+         "NEUTRAL", meshes.neutral,
          "The face at rest, an .obj or .ply file; or a face with its expressions, a .glb or .gltf")
       ->required()
       ->type_name("");
-  app.add_option("TARGETS", targets,
+  app.add_option("TARGETS", meshes.targets,
                  "Its expressions: .obj or .ply files with the same vertices in the same order, or "
                  "folders of them; each is named after its file")
       ->type_name("");
+  addSubdivide(app, meshes.subdivisions);
 }
 
 void addThreads(CLI::App& app, int& threads) {
@@ -323,13 +340,18 @@ bool isOfKind(std::string_view path, std::string_view kind) {
 
 bool isGltf(std::string_view path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }
 
-Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
-                             ProgressBar& bar) {
+Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar) {
   std::vector<fs::path> paths;
-  for (const std::string& target : targets) paths.push_back(utf8Path(target));
-  return readSource(utf8Path(neutral), paths, [&](std::size_t done, std::size_t total) {
-    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
-  });
+  for (const std::string& target : meshes.targets) paths.push_back(utf8Path(target));
+  Result<RigSource> source =
+      readSource(utf8Path(meshes.neutral), paths, [&](std::size_t done, std::size_t total) {
+        bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
+      });
+  if (!source || meshes.subdivisions == 0) return source;
+  Result<MeshRig> limit = subdivide(source->rig, meshes.subdivisions);
+  if (!limit) return fail(fmt::format("{}: {}.", meshes.neutral, limit.error().message));
+  source->rig = std::move(*limit);
+  return source;
 }
 
 Result<void> checkOutput(const std::string& name, const std::vector<std::string>& inputs,

@@ -64,7 +64,16 @@ void addFace(CLI::App& app, std::string& face);
 void addOutput(CLI::App& app, std::string& output, const std::string& description);
 CLI::Option* addWeights(CLI::App& app, std::string& weights);
 CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
-void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets);
+/// The meshes that a command reads: a neutral, and its targets or folders of them.
+struct MeshArguments {
+  std::string neutral;
+  std::vector<std::string> targets;
+  int subdivisions = 0;  ///< levels of subdivide() before they are used
+
+  std::vector<std::string> files() const;
+};
+void addMeshes(CLI::App& app, MeshArguments& meshes);
+CLI::Option* addSubdivide(CLI::App& app, int& levels);
 void addThreads(CLI::App& app, int& threads);
 void addStrip(CLI::App& app, std::string& strip);
 void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description);
@@ -129,9 +138,8 @@ bool isOfKind(std::string_view path, std::string_view kind);
 /// Whether it is a .glb or .gltf.
 bool isGltf(std::string_view path);
 
-/// Reads the meshes that the options of addMeshes() name.
-Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
-                             ProgressBar& bar);
+/// Reads the meshes that the options of addMeshes() name, and subdivides them.
+Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar);
 
 /// Checks, before the long work, that a file can be made at `output` without overwriting an input.
 /// Its name must end in one of `kinds`, so that nobody takes it for another kind of file. If

@@ -24,9 +24,8 @@ namespace sweepface::cli {
 namespace {
 
 struct ConvertArguments {
-  std::string neutral, output;
-  std::vector<std::string> targets;
-  std::string strip;
+  MeshArguments meshes;
+  std::string output, strip;
   double tolerance = 0, normalLimit = 0, normalTolerance = 0;
   std::size_t maxBytes = 0;
   std::optional<int> uvBits;
@@ -36,7 +35,7 @@ struct ConvertArguments {
 };
 
 void addOptions(CLI::App& app, ConvertArguments& a) {
-  addMeshes(app, a.neutral, a.targets);
+  addMeshes(app, a.meshes);
   addOutput(app, a.output, "The .sweep file to write");
   app.add_option("--tolerance", a.tolerance,
                  "Largest allowed distance between a vertex and the surface, in the mesh's units; "
@@ -134,7 +133,7 @@ void printText(const Summary& s) {
   fmt::print("{} bytes in {:.1f} s\n", s.bytes, s.seconds);
   if (s.sceneBytes > 0)
     fmt::print("{} of them are what {} holds besides the face; --bare leaves it out\n",
-               s.sceneBytes, s.arguments.neutral);
+               s.sceneBytes, s.arguments.meshes.neutral);
 }
 
 /// The size of the scene, as `info` reports it.
@@ -166,15 +165,20 @@ bool bringsScene(const ConvertArguments& a, const Strip& parts, const RigSource&
 
 /// Reads the meshes, and the scene as the file is to hold it.
 Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, ProgressBar& bar) {
-  Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
+  Result<RigSource> source = readMeshes(a.meshes, bar);
   if (!source) return source;
+  if (a.meshes.subdivisions > 0 && bringsScene(a, parts, *source))
+    return fail(
+        fmt::format("What {} holds besides the face belongs to its mesh as it is, without "
+                    "--subdivide; leave it out with --bare.",
+                    a.meshes.neutral));
   if (a.packs()) source->scene = packedScene(std::move(source->scene));
   if (a.maxBytes > 0 && bringsScene(a, parts, *source) && !parts.order &&
       source->scene.size() >= a.maxBytes)
     return fail(
         fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
                     "--bare, or allow more.",
-                    a.neutral, source->scene.size()));
+                    a.meshes.neutral, source->scene.size()));
   return source;
 }
 
@@ -185,9 +189,9 @@ std::vector<std::string> warningsOf(const ConvertArguments& a, const Strip& part
   std::vector<std::string> warnings = source.faceWarnings;
   if (!a.bare && !parts.scene && !losesScene)
     std::ranges::copy(source.warnings, std::back_inserter(warnings));
-  if (losesScene) warnings.push_back(sceneIsLost(a.neutral));
-  if (isGltf(a.neutral) && source.rig.targets.empty())
-    warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
+  if (losesScene) warnings.push_back(sceneIsLost(a.meshes.neutral));
+  if (isGltf(a.meshes.neutral) && source.rig.targets.empty())
+    warnings.push_back(a.meshes.neutral + " has no morph targets, so the face has no expressions.");
   for (const MeshTarget& target : source.rig.targets)
     if (!canBeListed(target.name)) warnings.push_back(cannotBeListed(target.name));
   return warnings;
@@ -203,7 +207,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   if (!source) return std::unexpected(source.error());
   if (interrupted) return kInterrupted;
   const auto refused = [&](const Error& error) {
-    return fail(fmt::format("{}: {}.", a.neutral, error.message));
+    return fail(fmt::format("{}: {}.", a.meshes.neutral, error.message));
   };
   const auto finish = [&](Rig& rig) {
     std::vector<Turn> turns;
@@ -252,9 +256,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
 }
 
 Result<int> runConvert(const ConvertArguments& a) {
-  std::vector<std::string> inputs = a.targets;
-  inputs.push_back(a.neutral);
-  if (auto ok = checkOutput(a.output, inputs, {".sweep"}, a.json || !a.quiet); !ok)
+  if (auto ok = checkOutput(a.output, a.meshes.files(), {".sweep"}, a.json || !a.quiet); !ok)
     return std::unexpected(ok.error());
   if (!a.packs() && (a.uvBits || a.normalTolerance > 0))
     return fail(fmt::format("{} is for packed files; give --pack or --max-bytes as well.",

@@ -12,15 +12,15 @@ namespace sweepface::cli {
 namespace {
 
 struct MeasureArguments {
-  std::string face, neutral;
-  std::vector<std::string> targets;
+  std::string face;
+  MeshArguments meshes;
   MeasureOptions options;
   bool quiet = false, json = false;
 };
 
 void addOptions(CLI::App& app, MeasureArguments& a) {
   addFace(app, a.face);
-  addMeshes(app, a.neutral, a.targets);
+  addMeshes(app, a.meshes);
   app.add_option("--mixtures", a.options.mixtures,
                  "Also compare N random mixtures with the same blend of the meshes")
       ->transform(wholeNumber(0, 100'000))
@@ -122,7 +122,7 @@ Result<int> runMeasure(const MeasureArguments& a) {
   if (!rig) return std::unexpected(rig.error());
   const Result<RigSource> source = [&] {
     ProgressBar bar(a.quiet);
-    return readMeshes(a.neutral, a.targets, bar);
+    return readMeshes(a.meshes, bar);
   }();
   if (!source) return std::unexpected(source.error());
   const Result<Measurement> measurement = measure(*rig, source->rig, a.options);

@@ -15,7 +15,7 @@ struct RenderArguments {
   std::optional<std::string> to;
   std::vector<std::string> compare, laws, boxes;
   FollowingArguments following;
-  int lod = 0, frames = 5;
+  int lod = 0, frames = 5, subdivisions = 0;
   bool quiet = false;
 };
 

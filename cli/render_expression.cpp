@@ -39,10 +39,11 @@ class ExpressionPage {
 
   Result<Image> besideMeshes(const Weights& weights) {
     const std::vector<std::string>& paths = what_.arguments.compare;
-    const std::vector<std::string> targets(paths.begin() + 1, paths.end());
+    const MeshArguments meshes{
+        paths.front(), {paths.begin() + 1, paths.end()}, what_.arguments.subdivisions};
     const Result<RigSource> read = [&] {
       ProgressBar bar(what_.arguments.quiet);
-      return readMeshes(paths.front(), targets, bar);
+      return readMeshes(meshes, bar);
     }();
     if (!read) return std::unexpected(read.error());
     warnOfOtherMeshes(what_.rig, read->rig);

@@ -14,16 +14,18 @@ namespace sweepface::cli {
 namespace {
 
 struct ReportArguments {
-  std::string face, neutral, output, weights, gltfpack;
-  std::vector<std::string> targets, regions;
+  std::string face, output, weights, gltfpack;
+  MeshArguments meshes;
+  std::vector<std::string> regions;
   std::vector<double> tolerances;
   bool noTolerances = false, quiet = false;
 };
 
 void addOptions(CLI::App& app, ReportArguments& a) {
   addFace(app, a.face);
-  addMeshes(app, a.neutral, a.targets);
+  addMeshes(app, a.meshes);
   CLI::Option* meshes = app.get_option("NEUTRAL")->required(false);
+  app.get_option("--subdivide")->needs(meshes);
   addOutput(app, a.output, "The .html file to write");
   app.add_option("--weights", a.weights,
                  "The expression shown beside the neutral; the target that moves furthest if not "
@@ -95,8 +97,8 @@ Result<std::string> reportOf(const ReportArguments& a) {
   options->cancel = &interrupted;
   std::optional<ProgressBar> bar(a.quiet);
   options->progress = [&](std::string_view what, double done) { bar->show(what, done); };
-  if (a.neutral.empty()) return makeMotionReport(*rig, *options);
-  const Result<RigSource> source = readMeshes(a.neutral, a.targets, *bar);
+  if (a.meshes.neutral.empty()) return makeMotionReport(*rig, *options);
+  const Result<RigSource> source = readMeshes(a.meshes, *bar);
   bar.emplace(a.quiet);  // erases the old bar, so that a warning begins a line
   if (!source) return std::unexpected(source.error());
   warnOfOtherMeshes(*rig, source->rig);
@@ -108,9 +110,8 @@ Result<std::string> reportOf(const ReportArguments& a) {
 }
 
 Result<int> runReport(const ReportArguments& a) {
-  std::vector<std::string> inputs = a.targets;
+  std::vector<std::string> inputs = a.meshes.files();
   inputs.push_back(a.face);
-  if (!a.neutral.empty()) inputs.push_back(a.neutral);
   if (auto ok = checkOutput(a.output, inputs, {".html", ".htm"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
   catchInterrupts();

@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 # Headers of the converting library, which a runtime-only install leaves out.
-set(converting_headers mesh.hpp io.hpp gltf.hpp fit.hpp measure.hpp drawing.hpp edit.hpp strip.hpp
+set(converting_headers mesh.hpp subdivision.hpp io.hpp gltf.hpp fit.hpp measure.hpp drawing.hpp edit.hpp strip.hpp
     region_file.hpp laws.hpp sweepface_clips.h)
 set(picture_headers picture.hpp report.hpp plot.hpp)
 
@@ -27,7 +27,7 @@ if(TARGET sweepface_convert)
   list(PREPEND installed_libraries sweepface_convert)
   list(APPEND installed_components convert)
   list(PREPEND installed_archives -lsweepface_convert)
-  list(APPEND private_archives -ltbb -lfmt -lmeshoptimizer -lz)
+  list(APPEND private_archives -ltbb -lfmt -lmeshoptimizer -lz -losdCPU)
 else()
   list(APPEND absent_headers ${converting_headers})
 endif()
@@ -60,6 +60,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cm
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sweepfaceConfig.cmake ${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cmake
         DESTINATION ${package_dir})
+if(TARGET sweepface_convert)
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindOpenSubdiv.cmake DESTINATION ${package_dir})
+endif()
 install(EXPORT sweepfaceTargets NAMESPACE sweepface:: DESTINATION ${package_dir})
 if(shared_components)
   install(FILES ${PROJECT_SOURCE_DIR}/csharp/Sweepface.cs DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepface/csharp)

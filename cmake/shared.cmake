@@ -15,7 +15,7 @@ function(sweepface_shared_library target output)
   if(WIN32)  # sweepface.dll, and sweepface.lib for linkers
     set_target_properties(sweepface_${target} PROPERTIES PREFIX "" IMPORT_PREFIX "" IMPORT_SUFFIX .lib)
   elseif(NOT APPLE)
-    target_link_options(sweepface_${target} PRIVATE -Wl,--version-script=${exports})
+    target_link_options(sweepface_${target} PRIVATE -Wl,--version-script=${exports} -Wl,--as-needed)
   endif()
 endfunction()
 

@@ -5,6 +5,7 @@
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
+#include "sweepface/subdivision.hpp"
 
 #include "bindings.hpp"
 
@@ -90,6 +91,12 @@ RigSource withShapes(RigSource meshes, const py::object& targets, const py::obje
   return meshes;
 }
 
+RigSource subdivided(const RigSource& meshes, int levels) {
+  RigSource limit;
+  limit.rig = valueOf(released([&] { return subdivide(meshes.rig, levels); }));
+  return limit;
+}
+
 RigSource readMeshes(const std::filesystem::path& neutral, const py::object& targets) {
   using Paths = std::vector<std::filesystem::path>;
   constexpr const char* kWhat = "The targets";
@@ -156,6 +163,10 @@ void addMeshes(py::module_& m) {
       .def("with_shapes", &withShapes, py::arg("targets"), py::arg("positions") = py::none(),
            "The same faces, texture coordinates, materials and scene with other targets, and with "
            "another neutral if positions are given.")
+      .def("subdivided", &subdivided, py::arg("levels") = 1,
+           "The limit surface of meshes that are cages, by Catmull-Clark subdivision, with every "
+           "edge cut into 2**levels, 1 to 5 (docs/subdivision.md). The scene of a GLB stays "
+           "behind.")
       .def(
           "save_glb",
           [](const RigSource& s, const std::filesystem::path& path) {

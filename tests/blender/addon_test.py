@@ -13,6 +13,7 @@ from types import SimpleNamespace
 import bpy
 import numpy
 from mathutils import Vector
+from mathutils.kdtree import KDTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../blender"))
 import sweepface_io as addon  # noqa: E402
@@ -127,6 +128,25 @@ class AddOn(InBlender):
             for name, file in (("Basis", "neutral"), ("jawOpen", "expressions/jawOpen"), ("smile", "expressions/smile")):
                 found = addon.places_in(os.path.join(meshes, file + ".obj"))
                 self.assert_near(found, self.expected(shown, [p.co for p in keys[name].data]))
+
+    def test_saves_the_limit_of_a_cage(self):
+        shown = self.sheet()
+        self.assertEqual(addon.levels_of(shown), 0)
+        modifier = shown.modifiers.new(name="Smooth", type="SUBSURF")
+        modifier.levels, modifier.boundary_smooth = 1, "PRESERVE_CORNERS"
+        self.assertEqual(addon.levels_of(shown), 1)
+        meshes = self.saved(shown, pack=False, subdivide=1)
+        shown.data.shape_keys.key_blocks["smile"].value = 1
+        mesh = shown.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+        places = self.expected(shown, [vertex.co for vertex in mesh.vertices])
+        found = addon.places_in(os.path.join(meshes, "expressions/smile.obj"))
+        self.assertEqual(len(found), len(places))
+        tree = KDTree(len(places))
+        for k, place in enumerate(places):
+            tree.insert(place, k)
+        tree.balance()
+        self.assertLessEqual(max(tree.find(place)[2] for place in found), 2 * TOLERANCE)
+        self.assertEqual(len({tree.find(place)[1] for place in found}), len(places))
 
     def test_saves_what_a_key_adds_to_another_and_where_its_group_lets_it(self):
         shown = self.sheet()

@@ -175,7 +175,7 @@ TEST(Doubts, AreOfAToleranceTooFineForACoarseMesh) {
   const auto doubts = doubtsAbout(rig, 0.4);
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_NE(doubts[0].find("lean 5.7 degrees"), std::string::npos) << doubts[0];
-  EXPECT_TRUE(doubts[0].ends_with("try a tolerance of 0.5.")) << doubts[0];
+  EXPECT_TRUE(doubts[0].ends_with("and try a tolerance of 0.5.")) << doubts[0];
   EXPECT_TRUE(doubtsAbout(rig, 0.5).empty());
   EXPECT_TRUE(doubtsAbout({corrugated(0.04), {}}, 0.01).empty());   // as good as smooth
   EXPECT_TRUE(doubtsAbout({corrugated(0.1, 4), {}}, 0.1).empty());  // too few faces to judge

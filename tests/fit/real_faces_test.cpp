@@ -5,6 +5,7 @@
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
 #include "sweepface/strip.hpp"
+#include "sweepface/subdivision.hpp"
 
 #include "faces.hpp"
 
@@ -82,6 +83,24 @@ TEST(RealFaceLong, aHeadAndItsExpressionsStayWithinTheirTolerance) {
     if (k > 0) weights[k - 1] = 1;
     EXPECT_LE(largestSecondJump(conversion->rig, weights), 1e-9);
   }
+}
+
+// MakeHuman's base mesh is a cage: a surface through its vertices folds over in 300 places.
+TEST(RealFaceLong, theLimitOfACageHardlyFolds) {
+  SKIP_WITHOUT_REAL_FACES();
+  const auto cage = faceIn(std::filesystem::path(realFaces()) / "makehuman", true);
+  ASSERT_TRUE(cage) << cage.error().message;
+  const auto limit = subdivide(*cage, 1);
+  ASSERT_TRUE(limit) << limit.error().message;
+  const auto conversion = convert(*limit);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_TRUE(conversion->warnings.empty());
+  EXPECT_LE(conversion->rig.surface.storedCount(), limit->neutral.positions.size() / 2);
+  const auto m = measure(conversion->rig, *limit);
+  ASSERT_TRUE(m) << m.error().message;
+  int folds = 0;
+  for (const PoseErrors& shape : m->shapes) folds += shape.folds;
+  EXPECT_LE(folds, 5);
 }
 
 // A face packed within 0.2 mm and read back, its measurement, and its size in bytes with and

@@ -372,6 +372,16 @@ class Conversion(FaceTest):
         with self.refuses("3 positions for 8216 vertices"):
             meshes.with_shapes({}, positions=np.zeros((3, 3)))
 
+    def test_subdivides_cages(self):
+        corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+        faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        limit = sweepface.Meshes(corners, faces, {"wide": 2 * corners}).subdivided(2)
+        self.assertEqual(len(limit.faces), 6 * 4 * 4)
+        self.assertTrue(np.allclose(limit.positions[:8], corners / 2))
+        self.assertTrue(np.allclose(limit.targets["wide"], 2 * limit.positions))
+        with self.refuses("1 to 5 levels"):
+            limit.subdivided(6)
+
     def test_reads_and_writes_meshes(self):
         sheet().save_glb(self.path("sheet.glb"))
         back = sweepface.read_meshes(self.path("sheet.glb"))

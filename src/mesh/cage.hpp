@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "sweepface/mesh.hpp"
+
+namespace sweepface {
+
+/// What subdivision needs to know of a mesh: vertices at the same place in all poses are welded, as
+/// are the same texture coordinates there; faces without an area of their own are left out.
+struct Cage {
+  std::vector<Index> vertices;  ///< [K] the source's vertices: those of faces, and loose ones
+  std::vector<Index> faces;     ///< [F] the source's faces
+  std::vector<Index> sizes;     ///< [F] corners of each face
+  std::vector<Index> corners;   ///< [C] index into `vertices`
+  std::vector<Vec2> texcoords;  ///< [T] one for each vertex and value
+  std::vector<Index> cornerTexcoords;  ///< [C] index into `texcoords`; empty if there are none
+  std::vector<char> isTextured;        ///< [F] whether all corners of a face have coordinates
+};
+
+/// The cage of meshes whose indices are valid.
+Cage cageOf(const MeshRig& rig);
+
+}  // namespace sweepface

@@ -1,0 +1,285 @@
+#include "sweepface/subdivision.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+MeshRig limitOf(const MeshRig& cage, int levels) {
+  Result<MeshRig> limit = subdivide(cage, levels);
+  EXPECT_TRUE(limit) << (limit ? "" : limit.error().message);
+  return limit ? *limit : MeshRig{};
+}
+MeshRig limitOf(const PolygonMesh& cage, int levels) { return limitOf(MeshRig{cage, {}}, levels); }
+
+std::string refusal(const MeshRig& cage, int levels = 1) {
+  const Result<MeshRig> limit = subdivide(cage, levels);
+  return limit ? "nothing" : limit.error().message;
+}
+
+/// A height that is nowhere smooth.
+double rough(double x, double y) { return std::sin(31.7 * x + 17.3 * y * y); }
+Vec3 onRough(double x, double y) { return {x, y, rough(x, y)}; }
+
+/// The uniform cubic B-spline's weights of the four control points around `t`, and the first.
+std::pair<std::array<double, 4>, int> cubic(double t) {
+  const int first = static_cast<int>(std::floor(t)) - 1;
+  const double u = t - first - 1;
+  return {{(1 - u) * (1 - u) * (1 - u) / 6, (3 * u * u * u - 6 * u * u + 4) / 6,
+           (-3 * u * u * u + 3 * u * u + 3 * u + 1) / 6, u * u * u / 6},
+          first};
+}
+
+double splineHeight(double x, double y) {
+  const auto [a, i] = cubic(x);
+  const auto [b, j] = cubic(y);
+  double height = 0;
+  for (int k = 0; k < 4; ++k)
+    for (int l = 0; l < 4; ++l) height += a[k] * b[l] * rough(i + k, j + l);
+  return height;
+}
+
+/// The quads, each as the set of its corners' places, to a millionth.
+std::set<std::set<std::array<long, 3>>> quadPlaces(const PolygonMesh& mesh) {
+  std::set<std::set<std::array<long, 3>>> quads;
+  for (const Loop& face : loopsOf(mesh.polygons)) {
+    std::set<std::array<long, 3>> places;
+    for (const Index v : face) {
+      const Vec3& p = mesh.positions[v];
+      places.insert({std::lround(1e6 * p.x), std::lround(1e6 * p.y), std::lround(1e6 * p.z)});
+    }
+    quads.insert(std::move(places));
+  }
+  return quads;
+}
+
+TEST(Subdivide, MakesTheBicubicSplineOfAGrid) {
+  for (const int levels : {1, 2, 3}) {
+    int compared = 0;
+    for (const Vec3& p : limitOf(grid(8, 7, onRough), levels).neutral.positions)
+      if (p.x > 1.01 && p.x < 6.99 && p.y > 1.01 && p.y < 5.99) {
+        EXPECT_NEAR(p.z, splineHeight(p.x, p.y), 1e-12);
+        ++compared;
+      }
+    EXPECT_EQ(compared, (6 * (1 << levels) - 1) * (5 * (1 << levels) - 1));
+  }
+}
+
+// Halstead, Kass and DeRose 1993: (n² v + 4 Σ neighbours + Σ opposite corners) / (n (n + 5)).
+TEST(Subdivide, MovesIrregularVerticesToTheirLimits) {
+  for (const Index valence : {3, 4, 5, 6, 9}) {
+    const PolygonMesh cage = pinwheel(valence);
+    Vec3 sum = valence * valence * cage.positions[0];
+    for (const Loop& face : loopsOf(cage.polygons))
+      if (face[0] == 0)  // each neighbour is in two of them
+        sum += 2 * cage.positions[face[1]] + cage.positions[face[2]] + 2 * cage.positions[face[3]];
+    const Vec3 limit = (1.0 / (valence * (valence + 5))) * sum;
+    for (const int levels : {1, 2})
+      EXPECT_LT(norm(limitOf(cage, levels).neutral.positions[0] - limit), 1e-14);
+  }
+}
+
+TEST(Subdivide, CutsEveryEdgeAndKeepsTheVerticesFirst) {
+  const PolygonMesh cage = dart(5);
+  const MeshRig once = limitOf(cage, 1), twice = limitOf(cage, 2);
+  const auto faces = [](const MeshRig& rig) { return rig.neutral.polygons.faceCount(); };
+  EXPECT_EQ(faces(once), std::ssize(cage.polygons.corners));
+  EXPECT_EQ(faces(twice), 4 * faces(once));
+  const Topology before = topologyOf(loopsOf(cage.polygons)),
+                 after = topologyOf(loopsOf(twice.neutral.polygons));
+  EXPECT_EQ(after.euler, before.euler);
+  EXPECT_EQ(after.boundaryLoops, before.boundaryLoops);
+  EXPECT_EQ(after.overfullEdges, 0);
+  for (Index f = 0; f < faces(twice); ++f) EXPECT_EQ(twice.neutral.polygons.faceSize(f), 4);
+  for (std::size_t v = 0; v < cage.positions.size(); ++v) {
+    EXPECT_LT(norm(once.neutral.positions[v] - cage.positions[v]), 0.25) << v;
+    EXPECT_LT(norm(once.neutral.positions[v] - twice.neutral.positions[v]), 1e-14) << v;
+  }
+}
+
+TEST(Subdivide, KeepsOpenEdgesAsCurvesAndTheirCornersInPlace) {
+  const PolygonMesh cage = grid(6, 5, onRough);
+  const std::vector<Vec3> limit = limitOf(cage, 1).neutral.positions;
+  for (const Index corner : {0, 6, 35, 41}) EXPECT_EQ(limit[corner], cage.positions[corner]);
+  for (Index i = 1; i < 6; ++i)
+    EXPECT_LT(norm(limit[i] - (1.0 / 6) * (cage.positions[i - 1] + 4 * cage.positions[i] +
+                                           cage.positions[i + 1])),
+              1e-15);
+}
+
+TEST(Subdivide, IsLinear) {
+  const MeshRig cage = withTargets(cubeSphere(3), 2), limit = limitOf(cage, 2);
+  ASSERT_EQ(limit.targets.size(), 2u);
+  EXPECT_EQ(limit.targets[1].name, "target2");
+  MeshRig mixed = cage;
+  const auto mix = [](const MeshRig& rig, std::size_t v) {
+    const Vec3& p = rig.neutral.positions[v];
+    return p + 0.7 * (rig.targets[0].positions[v] - p) - 1.3 * (rig.targets[1].positions[v] - p);
+  };
+  for (std::size_t v = 0; v < cage.neutral.positions.size(); ++v)
+    mixed.neutral.positions[v] = mix(cage, v);
+  const std::vector<Vec3> of = limitOf(mixed, 2).neutral.positions;
+  for (std::size_t v = 0; v < of.size(); ++v) EXPECT_LT(norm(of[v] - mix(limit, v)), 1e-13);
+}
+
+TEST(Subdivide, LeavesWhatATargetDoesNotMoveToTheBit) {
+  MeshRig cage{plane(12, 12), {{"bump", plane(12, 12).positions}}};
+  cage.targets[0].positions[0] += Vec3{0, 0, 1};
+  const MeshRig limit = limitOf(cage, 2);
+  int moved = 0;
+  for (std::size_t v = 0; v < limit.neutral.positions.size(); ++v)
+    moved += limit.neutral.positions[v] != limit.targets[0].positions[v];
+  EXPECT_GT(moved, 4);
+  EXPECT_LE(moved, 8 * 8);
+}
+
+TEST(Subdivide, ClosesSeams) {
+  const MeshRig seam = limitOf(withTargets(cylinder(16, 8, true)), 1),
+                closed = limitOf(withTargets(cylinder(16, 8, false)), 1);
+  EXPECT_EQ(seam.neutral.positions.size(), closed.neutral.positions.size());
+  EXPECT_EQ(quadPlaces(seam.neutral), quadPlaces(closed.neutral));
+}
+
+// Upper and lower lip touch in the neutral, and a target parts them.
+TEST(Subdivide, KeepsApartWhatATargetParts) {
+  PolygonMesh lips = joined(plane(4, 2), plane(4, 2), {0, 0, 0});
+  for (std::size_t v = 0; v < 15; ++v) lips.positions[v].y *= -1;
+  for (Loop face; Index f : {0, 1, 2, 3, 4, 5, 6, 7}) {
+    const auto first = lips.polygons.corners.begin() + 4 * f;
+    std::reverse(first, first + 4);
+  }
+  MeshRig cage{lips, {{"open", lips.positions}}};
+  EXPECT_EQ(topologyOf(loopsOf(limitOf(lips, 1).neutral.polygons)).boundaryLoops, 1);
+  for (std::size_t v = 15; v < 30; ++v) cage.targets[0].positions[v].y += 1;
+  EXPECT_EQ(topologyOf(loopsOf(limitOf(cage, 1).neutral.polygons)).boundaryLoops, 2);
+}
+
+/// A sheet whose texture has a seam in the middle and stretches over [0, 1]² on each side. One face
+/// has no texture.
+PolygonMesh textured() {
+  PolygonMesh mesh = grid(8, 4, onRough);
+  Polygons& p = mesh.polygons;
+  p.materials = {"skin", "lips"}, p.groups = {"left", "right"};
+  for (int side : {0, 1})
+    for (int j = 0; j <= 4; ++j)
+      for (int i = 0; i <= 4; ++i) p.texcoords.push_back({i / 4.0, j / 4.0 + 2 * side});
+  for (Index f = 0; f < p.faceCount(); ++f) {
+    const Index i = f % 8, j = f / 8, side = i / 4;
+    for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+      p.cornerTexcoords.push_back(f == 0 ? -1 : 25 * side + 5 * (j + b) + i % 4 + a);
+    p.faceMaterial.push_back(j == 3 ? -1 : j % 2), p.faceGroup.push_back(side);
+  }
+  return mesh;
+}
+
+TEST(Subdivide, HandsDownTexturesMaterialsAndGroups) {
+  const PolygonMesh cage = textured(), limit = limitOf(cage, 2).neutral;
+  const Polygons& p = limit.polygons;
+  EXPECT_EQ(p.materials, cage.polygons.materials);
+  EXPECT_EQ(p.groups, cage.polygons.groups);
+  ASSERT_EQ(p.faceMaterial.size(), p.faceGroup.size());
+  ASSERT_EQ(p.cornerTexcoords.size(), p.corners.size());
+  double widest = 0;
+  int without = 0;
+  for (Index f = 0; f < p.faceCount(); ++f) {
+    Vec3 middle;
+    for (Index c = 4 * f; c < 4 * f + 4; ++c) middle += 0.25 * limit.positions[p.corners[c]];
+    const int row = static_cast<int>(middle.y), right = middle.x > 4;
+    EXPECT_EQ(p.faceMaterial[f], row == 3 ? -1 : row % 2) << f;
+    EXPECT_EQ(p.faceGroup[f], right) << f;
+    for (Index c = 4 * f; c < 4 * f + 4; ++c) {
+      if (p.cornerTexcoords[c] < 0) {
+        ++without;
+        EXPECT_TRUE(middle.x < 1 && middle.y < 1) << f;
+        continue;
+      }
+      const Vec2 t = p.texcoords[p.cornerTexcoords[c]];
+      const Vec3& at = limit.positions[p.corners[c]];
+      widest = std::max(
+          {widest, std::abs(at.x - 4 * (t.x + right)), std::abs(at.y - 4 * (t.y - 2 * right))});
+    }
+  }
+  EXPECT_EQ(without, 4 * 16);
+  EXPECT_GT(widest, 0);  // where the texture ends and the surface goes on
+  EXPECT_LT(widest, 0.3);
+}
+
+// Away from where it ends, a texture that lies flat on a flat mesh goes on doing so.
+TEST(Subdivide, KeepsFlatTexturesFlat) {
+  PolygonMesh cage = grid(6, 6, [](double x, double y) { return Vec3{x, y, 0}; });
+  for (const Vec3& p : cage.positions) cage.polygons.texcoords.push_back({p.x / 6, p.y / 6});
+  cage.polygons.cornerTexcoords = cage.polygons.corners;
+  const PolygonMesh limit = limitOf(cage, 2).neutral;
+  const Polygons& p = limit.polygons;
+  EXPECT_EQ(p.texcoords.size(), limit.positions.size());
+  for (std::size_t c = 0; c < p.corners.size(); ++c) {
+    const Vec3& at = limit.positions[p.corners[c]];
+    EXPECT_NEAR(6 * p.texcoords[p.cornerTexcoords[c]].x, at.x, 1e-14);
+    EXPECT_NEAR(6 * p.texcoords[p.cornerTexcoords[c]].y, at.y, 1e-14);
+  }
+}
+
+TEST(Subdivide, KeepsLooseVertices) {
+  PolygonMesh cage = cubeSphere(2);
+  cage.positions.insert(cage.positions.begin(), {7, 8, 9});
+  for (Index& v : cage.polygons.corners) ++v;
+  const MeshRig limit = limitOf(cage, 2);
+  EXPECT_EQ(limit.neutral.positions[0], (Vec3{7, 8, 9}));
+  EXPECT_EQ(std::ranges::count(limit.neutral.polygons.corners, 0), 0);
+}
+
+// Repeated corners count once, and what has fewer than three is no face.
+TEST(Subdivide, TakesFacesThatRunToAPoint) {
+  PolygonMesh cage = plane(4, 4), same = cage;
+  addFace(cage, {3, 3, 2});
+  for (const Loop& face : loopsOf(uvSphere().polygons)) addFace(same, face), addFace(cage, face);
+  cage.polygons.corners.insert(cage.polygons.corners.begin() + 2, cage.polygons.corners[1]);
+  for (Index& start : cage.polygons.faceStart) start += start > 0;
+  for (PolygonMesh* mesh : {&cage, &same})
+    for (const Vec3& p : uvSphere().positions) mesh->positions.push_back(p);
+  EXPECT_EQ(quadPlaces(limitOf(cage, 1).neutral), quadPlaces(limitOf(same, 1).neutral));
+}
+
+class SubdivideEach : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(Faces, SubdivideEach, eachFace(), faceName);
+
+TEST_P(SubdivideEach, TakesDamagedMeshes) {
+  for (unsigned seed = 0; seed < 64; ++seed) {
+    MeshRig cage = GetParam().rig;
+    cage.neutral = damaged(cage.neutral, seed);
+    const MeshRig limit = limitOf(cage, 1 + static_cast<int>(seed % 2));
+    EXPECT_TRUE(std::ranges::all_of(limit.neutral.positions, isFinite)) << seed;
+    EXPECT_TRUE(std::ranges::all_of(limit.targets[1].positions, isFinite)) << seed;
+    EXPECT_EQ(limit.neutral.polygons.corners.size(), 4u * limit.neutral.polygons.faceCount());
+  }
+}
+
+TEST(Subdivide, RefusesWhatItCannotDo) {
+  const MeshRig good{plane(), {}};
+  for (const int levels : {-1, 0, 6})
+    EXPECT_EQ(refusal(good, levels),
+              "there are 1 to 5 levels of subdivision, not " + std::to_string(levels));
+  EXPECT_EQ(refusal({}), "the mesh has no face with an area to be subdivided");
+  PolygonMesh edge{{{}, {1, 0, 0}}, {}};
+  addFace(edge, {0, 1, 1});
+  EXPECT_EQ(refusal({edge, {}}), "the mesh has no face with an area to be subdivided");
+  MeshRig bad = good;
+  bad.neutral.polygons.corners[3] = 99;
+  EXPECT_NE(refusal(bad).find("corner 3"), std::string::npos) << refusal(bad);
+  const MeshRig many{grid(512, 512, [](double x, double y) { return Vec3{x, y, 0}; }), {}};
+  EXPECT_EQ(refusal(many, 3),
+            "at level 3 of subdivision the mesh would have 16777216 faces, of which 4194304 are "
+            "allowed; subdivide it less");
+}
+
+// OpenSubdiv counts to 65,535 around a vertex.
+TEST(Subdivide, RefusesPolesOfTensOfThousandsOfFaces) {
+  EXPECT_EQ(refusal({uvSphere(40'000, 3), {}}),
+            "too many faces around a vertex, or corners around a face, to be subdivided");
+  EXPECT_EQ(refusal({uvSphere(32'000, 3), {}}), "nothing");
+}
+
+}  // namespace
+}  // namespace sweepface
