@@ -470,7 +470,7 @@ class WhileTheToolRuns(InBlender):
         """Begins to save the active object, in place of another file."""
         with open(self.path("face.sweep"), "w", encoding="utf-8") as file:
             file.write("old")
-        options = {"pack": False, "tolerance": 0} | options
+        options = {"pack": False, "tolerance": 0, "subdivide": 0} | options
         return watched(addon.ExportSweep, filepath=self.path("face.sweep"), **options)
 
     def assert_untouched(self):
