@@ -64,6 +64,12 @@ export interface Look {
 }
 
 /** How the eyes stand. */
+/** A pose to be read: `look` sets another. */
+export interface ReadonlyPose {
+  readonly leftEye?: Readonly<NonNullable<Pose['leftEye']>>;
+  readonly rightEye?: Readonly<NonNullable<Pose['rightEye']>>;
+}
+
 export interface Pose {
   leftEye?: Look | undefined;
   rightEye?: Look | undefined;
@@ -114,7 +120,7 @@ export class Sweepface {
   clone(): Sweepface;
 
   /** The expressions. */
-  readonly names: string[];
+  readonly names: readonly string[];
   /** The level that was asked for; 0 if a budget was. */
   readonly lod: number;
   /** How far any source vertex may be off in any expression, in model units, not counting what evaluation adds. */
@@ -135,7 +141,7 @@ export class Sweepface {
   /** The regions, first 'rest' if they leave anything; empty if the face is not divided. */
   readonly regions: string[];
   /** The current weights; of several regions, those of the first. */
-  readonly weights: Weights;
+  readonly weights: Readonly<Weights>;
   weightsIn(region: string): Weights;
   /** A copy of `weights` as numbers in the order of `names`: faster if used every frame. */
   readonly weightValues: Float64Array;
@@ -159,7 +165,7 @@ export class Sweepface {
   /** Turns the eyes; null, as at the start: by the weights of eyeLook targets. */
   look(pose: Pose | null): void;
   /** The pose last given to `look`. */
-  readonly pose: Pose | null;
+  readonly pose: ReadonlyPose | null;
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | Float64Array | null, normals?: Float32Array | Float64Array | null): void;

@@ -6,13 +6,27 @@ import {MemoryError} from './sweepface_wasm.js';
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
 
+/** Frees what a face has of its own, and with the last face of a file what they share. */
+function free({runtime, mesh, rig}, {face, motion, memory}) {
+  const {wasm} = runtime;
+  if (runtime.isDead) return;
+  wasm.sweepface_motion_free(motion);
+  wasm.sweepface_face_free(face);
+  wasm.free(memory.positions);
+  if (--runtime.users === 0) {
+    wasm.sweepface_mesh_free(mesh);
+    wasm.sweepface_rig_free(rig);
+  }
+}
+
+/** Frees faces that nobody disposed of before they were collected, as frameworks drop what they render twice. */
+const forgotten = new FinalizationRegistry(({shared, own}) => free(shared, own));
+
 export class Sweepface {
   #shared;
-  #face;
-  #motion = 0;
+  #own = {face: 0, motion: 0, memory: null};  // addresses in the module's memory
   #pose = null;
   #drives = new Map();  // by the weight's place among all: its goal, and seconds left before it can rest there
-  #memory;  // addresses in one block of module memory: float arrays, weights, C structs of a drive and two vectors
 
   /** Use Sweepface.load. */
   constructor(shared) {
@@ -22,9 +36,11 @@ export class Sweepface {
     const positions = runtime.allocate(24 * vertexCount + 8 * weightCount + DRIVE_SIZE + 16);
     const normals = positions + 12 * vertexCount, weights = positions + 24 * vertexCount;
     const drive = weights + 8 * weightCount, vectors = drive + DRIVE_SIZE;
-    this.#memory = {positions, normals, weights, drive, vectors};
-    this.#face = runtime.get('sweepface_face_create', shared.mesh);
+    // One block: float arrays, weights, C structs of a drive and two vectors.
+    this.#own.memory = {positions, normals, weights, drive, vectors};
+    this.#own.face = runtime.get('sweepface_face_create', shared.mesh);
     ++runtime.users;
+    forgotten.register(this, {shared, own: this.#own}, this);
   }
 
   static async load(bytes, options) {
@@ -64,7 +80,7 @@ export class Sweepface {
   }
 
   #valuesOf(region) {
-    const {runtime, names: {length}} = this.#open(), all = runtime.wasm.sweepface_face_weights(this.#face);
+    const {runtime, names: {length}} = this.#open(), all = runtime.wasm.sweepface_face_weights(this.#own.face);
     return runtime.doubles(all + 8 * length * region, length).slice();
   }
 
@@ -80,27 +96,27 @@ export class Sweepface {
     this.#takeWeights();
     for (const r of places)
       for (const [target] of named) this.#drives.delete(count * r + target);
-    if (!this.#motion) return;
+    if (!this.#own.motion) return;
     const cut = shared.regions ? 0 : this.#drive('cut');
     for (const r of places)
       for (const [target, weight] of named)
-        runtime.check(shared.regions ? wasm.sweepface_motion_put_in(this.#motion, r, target, weight)
-                                     : wasm.sweepface_motion_move_to(this.#motion, target, weight, cut));
+        runtime.check(shared.regions ? wasm.sweepface_motion_put_in(this.#own.motion, r, target, weight)
+                                     : wasm.sweepface_motion_move_to(this.#own.motion, target, weight, cut));
   }
 
   /** Copies the current weights of all regions to the face's block of memory. */
   #copyWeights() {
-    const {runtime, weightCount} = this.#shared, all = runtime.doubles(this.#memory.weights, weightCount);
-    all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), weightCount));
+    const {runtime, weightCount} = this.#shared, all = runtime.doubles(this.#own.memory.weights, weightCount);
+    all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#own.face), weightCount));
     return all;
   }
 
   /** Sets the face's weights from that copy. */
   #takeWeights() {
-    const {runtime, names, regions} = this.#shared, {wasm} = runtime, at = this.#memory.weights, count = names.length;
-    if (!regions) return runtime.check(wasm.sweepface_face_set_weights(this.#face, at, count));
+    const {runtime, names, regions} = this.#shared, {wasm} = runtime, at = this.#own.memory.weights, count = names.length;
+    if (!regions) return runtime.check(wasm.sweepface_face_set_weights(this.#own.face, at, count));
     regions.forEach((_, r) => {
-      runtime.check(wasm.sweepface_face_set_region_weights(this.#face, r, at + 8 * count * r, count));
+      runtime.check(wasm.sweepface_face_set_region_weights(this.#own.face, r, at + 8 * count * r, count));
     });
   }
 
@@ -126,21 +142,21 @@ export class Sweepface {
       return [yaw, pitch, 0];
     };
     if (pose === null || pose === undefined) {
-      runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
+      runtime.check(runtime.wasm.sweepface_face_look(this.#own.face, 0));
       this.#pose = null;
       return;
     }
     const {leftEye, rightEye} = known(pose, ['leftEye', 'rightEye'], 'look');
     const numbers = new Float64Array([0, 0, 0, ...angles(leftEye, 'leftEye'), ...angles(rightEye, 'rightEye')]);
     runtime.lend(new Uint8Array(numbers.buffer), (at) => {
-      runtime.check(runtime.wasm.sweepface_face_look(this.#face, at));
+      runtime.check(runtime.wasm.sweepface_face_look(this.#own.face, at));
     });
     this.#pose = copyOf(pose);
   }
 
   /** Writes positions and normals, three floats a vertex; either may be null. */
   evaluate(positions, normals = null) {
-    const {runtime, vertexCount} = this.#open(), memory = this.#memory;
+    const {runtime, vertexCount} = this.#open(), memory = this.#own.memory;
     const count = 3 * vertexCount;
     for (const out of [positions ?? null, normals ?? null].filter((out) => out !== null)) {
       if (!isFloats(out))
@@ -151,7 +167,7 @@ export class Sweepface {
     if (positions && normals && overlap(positions, normals, count))
       throw new RangeError('Positions and normals must be written to different places.');
     runtime.words(memory.vectors, 4).set([positions ? memory.positions : 0, 0, normals ? memory.normals : 0, 0]);
-    runtime.check(runtime.wasm.sweepface_face_update(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
+    runtime.check(runtime.wasm.sweepface_face_update(this.#own.face, vertexCount, memory.vectors, memory.vectors + 8));
     positions?.set(runtime.floats(memory.positions, count));
     normals?.set(runtime.floats(memory.normals, count));
   }
@@ -180,7 +196,7 @@ export class Sweepface {
     this.#shared.loadTargets();
     return runtime.room(4 + 2 * out.length, (at) => {
       runtime.check(
-        runtime.wasm.sweepface_face_modes(this.#face, tangents ? 1 : 0, at + 4, out.length / 4, at));
+        runtime.wasm.sweepface_face_modes(this.#own.face, tangents ? 1 : 0, at + 4, out.length / 4, at));
       out.set(runtime.shorts(at + 4, out.length));
       return runtime.floats(at, 1)[0];
     });
@@ -222,17 +238,17 @@ export class Sweepface {
 
   /** Advances the weights in motion; returns whether anything still moves. */
   advance(seconds) {
-    const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
+    const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#own.memory;
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
-    if (!this.#motion) return false;
+    if (!this.#own.motion) return false;
     const passing = passed(seconds);
     const still = 1e-6, before = this.#copyWeights().slice();
     const isDriven = this.#drives.size > 0;
-    wasm.sweepface_motion_advance(this.#motion, seconds);
-    runtime.check(wasm.sweepface_motion_velocities(this.#motion, weights, count));
+    wasm.sweepface_motion_advance(this.#own.motion, seconds);
+    runtime.check(wasm.sweepface_motion_velocities(this.#own.motion, weights, count));
     const velocities = runtime.doubles(weights, count).slice();
-    runtime.check(wasm.sweepface_motion_positions(this.#motion, weights, count));
+    runtime.check(wasm.sweepface_motion_positions(this.#own.motion, weights, count));
     const now = runtime.doubles(weights, count);
     // A weight that sets out or turns back has no velocity either, but is not at its goal.
     for (const [place, drive] of this.#drives) {
@@ -249,16 +265,9 @@ export class Sweepface {
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
   dispose() {
     if (!this.#shared) return;
-    const {runtime, mesh, rig} = this.#shared, {wasm} = runtime;
+    forgotten.unregister(this);
+    free(this.#shared, this.#own);
     this.#shared = undefined;
-    if (runtime.isDead) return;
-    wasm.sweepface_motion_free(this.#motion);
-    wasm.sweepface_face_free(this.#face);
-    wasm.free(this.#memory.positions);
-    if (--runtime.users === 0) {
-      wasm.sweepface_mesh_free(mesh);
-      wasm.sweepface_rig_free(rig);
-    }
   }
 
   #open() {
@@ -280,12 +289,12 @@ export class Sweepface {
     });
   }
 
-  #moving() { return this.#motion ||= this.#makeMotion(); }
+  #moving() { return this.#own.motion ||= this.#makeMotion(); }
 
   #makeMotion() {
     const {runtime, names, regions} = this.#shared, {wasm} = runtime, count = names.length;
     this.#shared.loadTargets();
-    const weights = wasm.sweepface_face_weights(this.#face);
+    const weights = wasm.sweepface_face_weights(this.#own.face);
     if (!regions) return runtime.get('sweepface_motion_create', weights, count);
     const matters = new Float64Array(regions.flatMap(({mass, stiffness, delay}) => [mass, stiffness, delay]));
     const motion = runtime.lend(new Uint8Array(matters.buffer), (at) => {
@@ -299,7 +308,7 @@ export class Sweepface {
 
   /** The address of a drive's C struct, valid until the next call. */
   #drive(drive, places = []) {
-    const {runtime, regions} = this.#shared, at = this.#memory.drive;
+    const {runtime, regions} = this.#shared, at = this.#own.memory.drive;
     writeDrive(runtime, at, drive, places.map((r) => regions?.[r]));
     return at;
   }

@@ -1,7 +1,7 @@
 import type {Material} from '@babylonjs/core/Materials/material.js';
 import type {Mesh} from '@babylonjs/core/Meshes/mesh.js';
 import type {Scene} from '@babylonjs/core/scene.js';
-import type {Bytes, Drive, DriveKind, LoadOptions, Pose, Sweepface, Weights} from './sweepface.js';
+import type {Bytes, Drive, DriveKind, LoadOptions, Pose, ReadonlyPose, Sweepface, Weights} from './sweepface.js';
 
 /** A face in a scene of Babylon.js. Weights are set at any time; whenever the scene is rendered, the face moves on by
  * the time of its animations and the mesh follows. */
@@ -13,16 +13,16 @@ export class SweepfaceMesh extends Mesh {
   constructor(name: string, scene: Scene, face: Sweepface, material?: Material);
   /** For reading: what is set there does not show. */
   readonly face: Sweepface;
-  readonly names: string[];
+  readonly names: readonly string[];
   readonly eyeCount: number;
   readonly regions: string[];
   /** The current weights, and in `pose` the eyes. */
-  readonly weights: Weights;
+  readonly weights: Readonly<Weights>;
   weightsIn(region: string): Weights;
   /** Whether time passes with the frames of the scene: true at first. Set it to false where something else advances the
    * face, such as a TimelinePlayer. */
   advancesWithScene: boolean;
-  readonly pose: Pose | null;
+  readonly pose: ReadonlyPose | null;
   /** Turns the eyes; null: by the weights of eyeLook targets. */
   look(pose: Pose | null): void;
 
@@ -36,13 +36,14 @@ export class SweepfaceMesh extends Mesh {
   push(name: string, velocityChange: number, drag?: number): void;
   /** Lets time pass without showing it; returns whether anything still moves or waits to. */
   advance(seconds: number): boolean;
-  /** Lets time pass and shows it. The scene calls it before every frame. */
-  update(seconds?: number): void;
+  /** Lets time pass and shows it. The scene calls it before every frame. Returns whether there is something new to draw,
+   * or will be in the next frame. */
+  update(seconds?: number): boolean;
   /** Gets the face ready to move. Otherwise that happens when it first moves, and takes a few frames. */
   prepare(): void;
   /** Another face of the same file with the same weights, which moves by itself; it shares the material. Without a parent
    * it has that of the original. Children are cloned, too, unless `doNotCloneChildren` is given. */
   clone(name?: string, parent?: Parameters<Mesh['clone']>[1], doNotCloneChildren?: boolean): SweepfaceMesh;
-  /** Frees the geometry and the face. */
+  /** Frees the geometry and the face, and with the last mesh that shows them the materials that the mesh made. */
   dispose(doNotRecurse?: boolean, disposeMaterialAndTextures?: boolean): void;
 }

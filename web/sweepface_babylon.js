@@ -1,4 +1,5 @@
 // .sweep faces for Babylon.js: a mesh whose geometry follows the weights.
+import {Vector3} from '@babylonjs/core/Maths/math.vector.js';
 import {VertexBuffer} from '@babylonjs/core/Buffers/buffer.js';
 import {MultiMaterial} from '@babylonjs/core/Materials/multiMaterial.js';
 import {StandardMaterial} from '@babylonjs/core/Materials/standardMaterial.js';
@@ -8,7 +9,10 @@ import {SubMesh} from '@babylonjs/core/Meshes/subMesh.js';
 import {Sweepface} from './sweepface.js';
 import {ownRegions} from './sweepface_regions.js';
 import {twinOf} from './sweepface_twin.js';
-import {otherGeometry} from './sweepface_values.js';
+import {boxOf, otherGeometry} from './sweepface_values.js';
+
+/** Materials that meshes made for themselves. */
+const made = new WeakSet();
 
 /** Plain materials, named as in the source; seen from both sides, as mouths and lashes are. */
 function materialsOf(face, scene) {
@@ -17,18 +21,31 @@ function materialsOf(face, scene) {
     plain.backFaceCulling = false;
     plain.twoSidedLighting = true;
     plain.specularColor.set(0.1, 0.1, 0.1);
+    made.add(plain);
     return plain;
   });
+}
+
+/** Disposes of a material that was made here, and of its parts, once nothing shows them. */
+function release(material) {
+  const holds = ({subMaterials}) => subMaterials.includes(material);
+  if (!made.has(material) || material.getBindedMeshes().length > 0 || material.getScene().multiMaterials.some(holds)) return;
+  made.delete(material);
+  const parts = material.subMaterials ?? [];
+  material.dispose();
+  parts.forEach(release);
 }
 
 /** The triangles the other way around, as right-handed scenes have them. */
 const reversed = (triangles) => triangles.map((_, k) => triangles[k + [0, 1, -1][k % 3]]);
 
-/** The seconds that pass with a frame, as for Babylon.js's own animations. */
-function passing(scene) {
+/** The seconds that pass with a step of Babylon.js's own animations, `milliseconds` after the last one. */
+function passing(scene, milliseconds) {
+  const engine = scene.getEngine();
   if (!scene.animationsEnabled) return 0;
+  if (engine.isDeterministicLockStep()) return engine.getTimeStep() / 1000;
   if (scene.useConstantAnimationDeltaTime) return 0.016;  // whatever the scale of time
-  return Math.max(scene.getEngine().getDeltaTime() * scene.animationTimeScale, 0) / 1000;
+  return Math.max(milliseconds * scene.animationTimeScale, 0) / 1000;
 }
 
 async function download(url) {
@@ -68,6 +85,7 @@ export class SweepfaceMesh extends Mesh {
   #stale = true;
   #moving;
   #observers;
+  #material;  // that it was made with
   #isMirrored;
 
   /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load. */
@@ -76,10 +94,19 @@ export class SweepfaceMesh extends Mesh {
     const usual = {...options}, isUrl = typeof source === 'string' || source instanceof URL;
     if (usual.regions) usual.regions = ownRegions(usual.regions);
     if (isUrl) usual.name ??= String(source);
-    const face = await Sweepface.load(isUrl ? await download(source) : source, usual);
+    scene?.addPendingData(usual);  // its whenReadyAsync() waits
+    try {
+      const face = await Sweepface.load(isUrl ? await download(source) : source, usual);
+      return this.#from(face, isUrl ? nameIn(source) : 'face', scene);
+    } finally {
+      scene?.removePendingData(usual);
+    }
+  }
+
+  static #from(face, name, scene) {
     try {
       if (scene?.isDisposed) throw new Error('The scene was disposed of while the face was loading.');
-      return new this(isUrl ? nameIn(source) : 'face', scene, face);
+      return new this(name, scene, face);
     } catch (error) {
       face.dispose();
       throw error;
@@ -90,6 +117,8 @@ export class SweepfaceMesh extends Mesh {
   constructor(name, scene, face, material) {
     if (typeof face?.evaluate !== 'function') throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
     checkScene(scene);
+    if (material && typeof material.isReady !== 'function')
+      throw new TypeError('A mesh takes a Material of Babylon.js, or none.');
     const moving = face.advance(0);  // throws if it was disposed of, before the scene has a mesh of it
     super(name, scene);
     this.face = face;
@@ -99,10 +128,15 @@ export class SweepfaceMesh extends Mesh {
       return {kind, values: new Float32Array(3 * face.vertexCount)};
     });
     this.#makeGeometry();
-    this.material = material ?? this.#makeMaterial();
-    const {onBeforeRenderObservable, onBeforeRenderTargetsRenderObservable} = this.getScene();
+    this.material = this.#material = material ?? this.#makeMaterial();
+    const {onAfterAnimationsObservable, onBeforeRenderTargetsRenderObservable} = this.getScene();
+    let before;
     this.#observers = [
-      onBeforeRenderObservable.add((scene) => this.#pass(this.advancesWithScene ? passing(scene) : 0)),
+      onAfterAnimationsObservable.add((scene) => {  // not called if a frame ignores animations
+        const now = performance.now();
+        this.#pass(this.advancesWithScene ? passing(scene, now - (before ?? now)) : 0);
+        before = now;
+      }),
       onBeforeRenderTargetsRenderObservable.add(() => this.update())  // after all that set weights before the frame
     ];
   }
@@ -116,13 +150,21 @@ export class SweepfaceMesh extends Mesh {
     data.applyToMesh(this, true);
     this.releaseSubMeshes();
     face.parts.forEach(({start, count}, k) => new SubMesh(k, 0, face.vertexCount, start, count, this));
+    this.#bound();
+  }
+
+  /** Gives the mesh and its parts the box of all vertices: refreshBoundingInfo() takes longer than the evaluation. */
+  #bound() {
+    const ends = boxOf(this.#vectors[0].values).map((place) => Vector3.FromArray(place)), world = this.getWorldMatrix();
+    for (const part of [this, ...this.subMeshes ?? []]) part.getBoundingInfo().reConstruct(...ends, world);
   }
 
   #makeMaterial() {
-    const made = materialsOf(this.face, this.getScene());
-    if (made.length === 1) return made[0];
+    const plain = materialsOf(this.face, this.getScene());
+    if (plain.length === 1) return plain[0];
     const all = new MultiMaterial(this.name, this.getScene());
-    all.subMaterials = made;
+    all.subMaterials = plain;
+    made.add(all);
     return all;
   }
 
@@ -184,14 +226,19 @@ export class SweepfaceMesh extends Mesh {
     if (!this.isDisposed() && ((this.#moving && seconds > 0) || !Number.isFinite(seconds))) this.advance(seconds);
   }
 
-  /** Lets time pass and shows it, as the scene does before each frame; costs nothing while nothing moves. */
+  /**
+   * Lets time pass and shows it, as the scene does before each frame; costs nothing while nothing moves. Returns whether
+   * there is something new to draw, or will be in the next frame.
+   */
   update(seconds = 0) {
     this.#pass(seconds);
-    if (this.isDisposed() || !this.#stale) return;
+    if (this.isDisposed()) return false;
+    if (!this.#stale) return this.#moving;
     if (this.getTotalVertices() !== this.face.vertexCount) throw otherGeometry(this.face);
     this.#evaluate();
     for (const {kind, values} of this.#vectors) this.updateVerticesData(kind, values);
-    this.refreshBoundingInfo();
+    this.#bound();
+    return true;
   }
 
   /** Another face of the same file, in the same pose, that moves independently; it shares the material. */
@@ -213,7 +260,9 @@ export class SweepfaceMesh extends Mesh {
 
   dispose(doNotRecurse, disposeMaterialAndTextures = false) {
     for (const observer of this.#observers) observer.remove();
+    const materials = new Set([this.#material, this.material]);
     super.dispose(doNotRecurse, disposeMaterialAndTextures);
+    materials.forEach(release);
     this.face.dispose();
   }
 }

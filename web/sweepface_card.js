@@ -1,7 +1,7 @@
 // Shared by the meshes of sweepface/gpu and sweepface/webgpu: tables in textures, the attributes that point into them,
 // and materials that follow one face each.
 import {BufferAttribute, DataTexture, NearestFilter, Vector3} from 'three';
-import {FaceMesh, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
+import {FaceMesh, changes, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
 
 /** Texels in a row: texel k of a texture is at (k mod 1024, k / 1024). */
 const WIDTH = 1024;
@@ -101,6 +101,14 @@ const attributesOf = (face, {positions, tangents}) => ({
  */
 const own = new WeakMap();
 
+/** Says once for each kind of mesh that a renderer, which must not be stopped in the middle of a frame, cannot draw it. */
+const complained = new Set();
+export function complain(kind, renderer, instead) {
+  if (complained.has(kind)) return;
+  complained.add(kind);
+  console.error(`${renderer} draws the neutral of every ${kind}; make a ${instead} for it.`);
+}
+
 export function refuse(material, what) {
   throw new TypeError(`The material '${material.name || material.type}' ${what}.`);
 }
@@ -118,6 +126,7 @@ export class CardMesh extends FaceMesh {
   #textures;
   #isGone = false;
   #followers = new Set();  // materials that follow the face
+  #met = {};  // the face as it stood when a ray came last: attributes, and their bounding sphere
 
   /** `kind` says how textures hold integers: {Data, perTexel} and the members to set on them. */
   constructor(face, materials, kind) {
@@ -181,18 +190,28 @@ export class CardMesh extends FaceMesh {
 
   [show]() { this.#textures.update(this.face); }
 
-  /** Intersects rays with the face in its current pose, evaluated here because the attributes hold the neutral. */
+  /** The attributes of the current pose, evaluated here because the geometry's own hold the neutral. */
+  #stand({position, normal}) {
+    const names = normal ? 'positions and normals' : 'positions', met = this.#met;
+    if (met.at === this[changes] && met.names === names && met.position.array.length === position.array.length) return met;
+    const made = () => new BufferAttribute(new Float32Array(position.array.length), 3);
+    this.#met = {at: this[changes], names, position: made(), ...(normal && {normal: made()}), sphere: null};
+    this.face.evaluate(this.#met.position.array, this.#met.normal?.array);
+    return this.#met;
+  }
+
+  /** Intersects rays with the face in its current pose. Trees of triangles, as of three-mesh-bvh, are of the neutral. */
   [meet](raycaster, hits) {
-    const {geometry} = this, {attributes, boundingSphere, boundingBox} = geometry;
-    const standing = {};
-    for (const name of ['position', 'normal'])
-      if (attributes[name]) standing[name] = new BufferAttribute(new Float32Array(attributes[name].array.length), 3);
-    this.face.evaluate(standing.position.array, standing.normal?.array);
-    Object.assign(geometry, {attributes: {...attributes, ...standing}, boundingSphere: null, boundingBox: null});
+    const {geometry} = this, {attributes, boundingSphere, boundingBox, boundsTree} = geometry;
+    const met = this.#stand(attributes), {position, normal} = met;
+    const standing = {...attributes, position, ...(normal && {normal})};
+    Object.assign(geometry, {attributes: standing, boundingSphere: met.sphere, boundingBox: null});
+    if (boundsTree) geometry.boundsTree = undefined;
     try {
       super[meet](raycaster, hits);
+      met.sphere = geometry.boundingSphere;
     } finally {
-      Object.assign(geometry, {attributes, boundingSphere, boundingBox});
+      Object.assign(geometry, {attributes, boundingSphere, boundingBox}, boundsTree && {boundsTree});
     }
   }
 

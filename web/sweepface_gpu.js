@@ -1,7 +1,7 @@
 // .sweep faces evaluated in a vertex shader: a mesh for three.js, and the shader for other engines. Every frame only
 // the modes of the weights are uploaded, less than a tenth of a megabyte (docs/evaluation.md).
 import {GLSL3, MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking, RGBAIntegerFormat, ShortType} from 'three';
-import {CardMesh, check, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
+import {CardMesh, check, complain, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
 
 /** GLSL ES 3 that moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
 export const SWEEPFACE_GLSL = `
@@ -44,6 +44,10 @@ export class SweepfaceGpuMesh extends CardMesh {
     this.customDepthMaterial = new MeshDepthMaterial({depthPacking: RGBADepthPacking});  // for shadows
     this.customDistanceMaterial = new MeshDistanceMaterial();
     this.update();
+  }
+
+  onBeforeRender(renderer) {
+    if (renderer.isRenderer) complain('SweepfaceGpuMesh', 'WebGPURenderer', 'SweepfaceNodeMesh');
   }
 
   [check](material) {

@@ -1,5 +1,5 @@
 import type {BufferGeometry, Material, Mesh, MeshStandardMaterial, Object3D, Vector3} from 'three';
-import type {Drive, DriveKind, Pose, Sweepface, Weights} from './sweepface.js';
+import type {Drive, DriveKind, Pose, ReadonlyPose, Sweepface, Weights} from './sweepface.js';
 
 /** A face in a scene. Weights are set at any time; `update` brings them to the screen. */
 export class FaceMesh<Materials extends Material | Material[] = MeshStandardMaterial[]>
@@ -9,18 +9,18 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   protected constructor(face: Sweepface, geometry: BufferGeometry, materials?: Materials);
   /** For reading: what is set there does not show. */
   readonly face: Sweepface;
-  readonly names: string[];
+  readonly names: readonly string[];
   readonly eyeCount: number;
   readonly regions: string[];
   /** The current weights, and in `pose` the eyes. */
-  readonly weights: Weights;
+  readonly weights: Readonly<Weights>;
   /** The weights by the index of their names, as other meshes have them; of several regions, those of the first. A
    * number that you change here counts from the next `update` on, in all regions; what is not a number changes
    * nothing. */
   morphTargetInfluences: number[];
   morphTargetDictionary: Record<string, number>;
   weightsIn(region: string): Weights;
-  readonly pose: Pose | null;
+  readonly pose: ReadonlyPose | null;
   /** Turns the eyes; null: by the weights of eyeLook targets. */
   look(pose: Pose | null): void;
 
@@ -37,8 +37,9 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
    * is less than 0 or more than 1e10. */
   advance(seconds: number): boolean;
   /** Call it once a frame with the seconds since the last, as for `advance`. It costs nothing while nothing moves, and
-   * does nothing once the mesh is disposed of. */
-  update(seconds?: number): void;
+   * does nothing once the mesh is disposed of. Returns whether there is something new to draw, or will be in the next
+   * frame: applications that draw on demand go on as long as it does. */
+  update(seconds?: number): boolean;
   /** Adds an object that follows the point of the skin nearest to `point` (in the face's own coordinates) and turns with
    * it. At first its axes are the face's. Take it off with `remove`. */
   pin(point: Vector3): Object3D;
@@ -48,6 +49,6 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
    * same for all are shared. Materials are shared, too, except those of meshes that the graphics card evaluates, which
    * are cloned. */
   clone(recursive?: boolean): this;
-  /** Frees geometry, materials and the face. */
+  /** Frees the geometry and the face, and the materials unless clones show them. */
   dispose(): void;
 }

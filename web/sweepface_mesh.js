@@ -33,13 +33,21 @@ class FaceGeometry extends BufferGeometry {
   #changing = [];  // names of attributes that follow the weights
   #fixed = {all: new Set(), users: 0};  // the other attributes, and how many geometries show them
   #isUser = false;
+  #isOfFace = false;
 
   /** Fixes all attributes that are there, except those in `changing`, which follow the weights. */
   fix(changing) {
     const others = Object.keys(this.attributes).filter((name) => !changing.includes(name));
     this.#changing = changing;
+    this.#isOfFace = true;
     this.#fixed.all = new Set(others.map((name) => this.attributes[name]));
     return this;
+  }
+
+  /** Moving the vertices would last until the next expression. All of three.js's methods that do so come through here. */
+  applyMatrix4(matrix) {
+    if (!this.#isOfFace) return super.applyMatrix4(matrix);
+    throw new Error('The vertices follow the face; move, turn or scale the mesh, or a clone() of its geometry.');
   }
 
   /** Takes over another geometry of the same file: shares its fixed attributes, and copies what was added to it. */
@@ -96,10 +104,14 @@ export function geometryOf(face, changing, fixed = {}) {
  * What each kind of mesh defines for itself, under names that no class derived from it has by chance: `show` brings
  * weights to the screen, `follow` handles other changes, `meet` intersects rays with the face, `share` gives a clone
  * what it need not have twice, `materialsOfClone` makes a clone's materials, and `standing` returns the current
- * positions.
+ * positions. `changes` is what tells them whether the expression is another.
  */
 export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
-export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing');
+export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing'), changes = Symbol('changes');
+
+/** How many meshes were made with each material: clones share theirs, and the last of them disposes of it. */
+const users = new WeakMap();
+const count = (material, by) => users.set(material, (users.get(material) ?? 0) + by);
 
 /**
  * A face in a scene. Weights can be set at any time; `update` brings them to the screen. They are also written to
@@ -110,12 +122,16 @@ export class FaceMesh extends Mesh {
   #moving;
   #isGone = false;
   #told = [];  // the influences as they were last written
+  #changes = 0;  // how often weights or eyes were set
+  #made;  // the materials that it was made with
   #positions;
   #pose = {};  // a new object whenever a new pose is shown
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
     this.face = face;
+    this.#made = new Set([materials].flat());
+    for (const material of this.#made) count(material, 1);
     this.#moving = face.advance(0);
     this.morphTargetDictionary = Object.fromEntries(face.names.map((name, k) => [name, k]));
     this.morphTargetInfluences = face.names.map(() => 0);
@@ -130,9 +146,12 @@ export class FaceMesh extends Mesh {
 
   weightsIn(region) { return this.face.weightsIn(region); }
 
+  /** Differs after every change of the expression. */
+  get [changes]() { return this.#changes; }
+
   look(pose) {
     this.face.look(pose);
-    this.#stale = true;
+    this.#change();
   }
 
   setWeights(weights, region) {
@@ -179,26 +198,36 @@ export class FaceMesh extends Mesh {
 
   /** Called when weights have changed: marks the mesh stale, and copies them to the influences, if there are any. */
   #tellInfluences() {
-    const influences = this.morphTargetInfluences ?? [];
-    this.#told = Array.from(this.face.weightValues, (weight, k) => {
-      if (k < influences.length) Reflect.set(influences, k, weight);  // a frozen array stays as it is
-      return influences[k];  // which may be rounded, or missing
-    });
-    this.#stale = true;
+    const influences = this.morphTargetInfluences ?? [], weights = this.face.weightValues;
+    for (let k = 0; k < weights.length; ++k) {
+      if (k < influences.length) Reflect.set(influences, k, weights[k]);  // a frozen array stays as it is
+      this.#told[k] = influences[k];  // which may be rounded, or missing
+    }
+    this.#change();
   }
 
-  /** Call it once a frame with the seconds since the last; costs nothing while nothing moves. */
+  #change() {
+    this.#stale = true;
+    ++this.#changes;
+  }
+
+  /**
+   * Call it once a frame with the seconds since the last; costs nothing while nothing moves. Returns whether there is
+   * something new to draw, or will be in the next frame.
+   */
   update(seconds = 0) {
-    if (this.#isGone) return;
+    if (this.#isGone) return false;
     this.#takeInfluences();
     if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
     this[follow]();
-    if (this.#stale) {
+    const isNew = this.#stale;
+    if (isNew) {
       this[show]();
       this.#pose = {};
     }
     this.#stale = false;
     this.#movePins();
+    return isNew || this.#moving;
   }
 
   /** Adds an object that follows the skin at its point nearest to `point`, and turns with it. */
@@ -264,9 +293,11 @@ export class FaceMesh extends Mesh {
   }
 
   dispose() {
+    if (!this.#isGone) for (const material of this.#made) count(material, -1);
     this.#isGone = true;
     this.geometry.dispose();
-    for (const material of [this.material].flat()) material?.dispose();
+    for (const material of new Set([...this.#made, ...[this.material].flat()]))
+      if (material && !(users.get(material) > 0)) material.dispose();
     this.face.dispose();
   }
 }

@@ -43,6 +43,18 @@ export function known(options, keys, what) {
   return options ?? {};
 }
 
+/** The lowest and the highest coordinates of points, [3] each. */
+export function boxOf(points) {
+  let [x, y, z] = points, [X, Y, Z] = points;
+  for (let k = 3; k < points.length; k += 3) {
+    const a = points[k], b = points[k + 1], c = points[k + 2];
+    if (a < x) x = a; else if (a > X) X = a;
+    if (b < y) y = b; else if (b > Y) Y = b;
+    if (c < z) z = c; else if (c > Z) Z = c;
+  }
+  return [[x, y, z], [X, Y, Z]];
+}
+
 /** What is wrong with a geometry that was put in the place of a mesh's own. */
 export const otherGeometry = ({vertexCount}) =>
   new Error(`The geometry must have the ${vertexCount} vertices of the face; change a copy of it.`);

@@ -2,10 +2,10 @@
 // (docs/evaluation.md), in the shading language that compiles to WGSL with WebGPU and to GLSL without.
 import {DataTexture, IntType, RGIntegerFormat} from 'three';
 import {
-  Fn, Loop, attribute, bitcast, cross, float, int, ivec2, materialReference, normalLocal, positionGeometry,
-  positionLocal, positionPrevious, texture, uniform, vec3, vec4
+  Fn, Loop, attribute, bitcast, cross, float, instancedMesh, int, ivec2, materialReference, normalLocal,
+  positionGeometry, positionLocal, positionPrevious, texture, uniform, vec3, vec4
 } from 'three/tsl';
-import {CardMesh, check, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
+import {CardMesh, check, complain, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
 
 /** Two 16-bit integers in a 32-bit one, the first in the lower half: WebGPURenderer has no 16-bit integer textures. */
 const INTEGERS = {Data: Int32Array, perTexel: 2, format: RGIntegerFormat, type: IntType};
@@ -52,7 +52,7 @@ function displacement() {
 }
 
 /** The position of a vertex, with its normal set on the way; `next`, a material's own node, goes on from there. */
-const evaluated = (next) => Fn(({material, renderer}) => {
+const evaluated = (next) => Fn(({material, object, renderer}) => {
   const factor = uniform(0).onObjectUpdate((frame) => drawn(frame).factor);
   const place = attribute('sweepPlace', 'uvec3'), tangentPlace = attribute('sweepTangentPlace', 'uvec3');
   const scale = (of) => bitcast(of.z, 'float').mul(factor);
@@ -61,6 +61,7 @@ const evaluated = (next) => Fn(({material, renderer}) => {
   positionLocal.assign(positionGeometry.add(moved.mul(scale(place))));
   normalLocal.assign(unit(cross(row('sweepAlong', along), row('sweepAcross', across))));
   if (material.displacementMap) positionLocal.addAssign(displacement());
+  if (object.isInstancedMesh) instancedMesh(object).toStack();  // once more: it has placed the neutral
   // Otherwise what the expression has moved would seem to move every frame.
   if (renderer.getMRT()?.has('velocity')) positionPrevious.assign(positionLocal);
   return next ?? positionLocal;
@@ -74,6 +75,10 @@ export class SweepfaceNodeMesh extends CardMesh {
     super(face, materials, INTEGERS);
     texturesOf.set(this, this[textures]).set(this.geometry, this[textures]);
     this.update();
+  }
+
+  onBeforeRender(renderer) {
+    if (renderer.isWebGLRenderer) complain('SweepfaceNodeMesh', 'WebGLRenderer', 'SweepfaceGpuMesh');
   }
 
   [check](material) {

@@ -44,8 +44,10 @@ test('a mesh follows its weights when the scene is rendered', options, async () 
   assert.deepEqual(positionsOf(mesh), neutral);
 });
 
-test('forces move it as the scene lets time pass', options, async () => {
+test('forces move it as the scene lets time pass', options, async (context) => {
   const {scene, mesh} = await load();
+  let now = performance.now();
+  context.mock.method(performance, 'now', () => now);
   const isAt = (seconds) => Math.abs(mesh.weights.jawOpen - (seconds / 0.16) ** 2) < 1e-9;
   mesh.moveTo({jawOpen: 1}, {kind: 'newton', seconds: 0.16});
   for (let k = 0; k < 5; ++k) scene.render();
@@ -59,15 +61,76 @@ test('forces move it as the scene lets time pass', options, async () => {
   scene.render();
   assert.ok(isAt(0.096), 'as in Babylon.js, frames of constant time are not scaled');
   scene.useConstantAnimationDeltaTime = false;
-  scene.getEngine().getDeltaTime = () => 8;
-  scene.render();
+  for (const passed of [0, 5, 3]) {  // frames, however many there are, take the time that they take
+    now += passed;
+    scene.render();
+  }
   assert.ok(isAt(0.12));
+  now += 4;
+  scene.render(true, true);
+  assert.ok(isAt(0.12), 'the frame ignores animations');
   mesh.advancesWithScene = false;
   scene.render();
   assert.ok(isAt(0.12));
   mesh.push('browInnerUp', 1, 4);
   assert.equal(mesh.advance(0.1), true);
   assert.ok(mesh.weights.browInnerUp > 0.05);
+});
+
+test('in lockstep it moves by the steps of the scene', options, async () => {
+  const {scene, mesh} = await load(), engine = scene.getEngine();
+  Object.assign(engine, {isDeterministicLockStep: () => true, getTimeStep: () => 10, getLockstepMaxSteps: () => 4});
+  engine.getDeltaTime = () => 25;
+  mesh.moveTo({jawOpen: 1}, {kind: 'newton', seconds: 0.1});
+  scene.render();
+  assert.ok(Math.abs(mesh.weights.jawOpen - 0.2 ** 2) < 1e-9);
+});
+
+test('an update tells whether there is something to draw', options, async () => {
+  const {mesh} = await load();
+  assert.equal(mesh.update(), false);
+  mesh.setWeights({jawOpen: 1});
+  assert.deepEqual([mesh.update(), mesh.update()], [true, false]);
+  mesh.moveTo({jawOpen: 0}, {kind: 'linear-force', seconds: 0.1});
+  assert.deepEqual([0.05, 0, 0.06, 0.01, 0.01].map((seconds) => mesh.update(seconds)), [true, true, true, true, false]);
+  mesh.dispose();
+  assert.equal(mesh.update(), false);
+});
+
+test('its box and those of its parts contain the face as it stands', options, async () => {
+  const {scene, mesh} = await load({rightHanded: false});
+  mesh.setWeights({jawOpen: 20});
+  mesh.position.x = 100;
+  scene.render();
+  const [mine, ...parts] = [mesh, ...mesh.subMeshes].map((each) => each.getBoundingInfo());
+  const {minimum, maximum, boundingBox} = mine;
+  mesh.refreshBoundingInfo();
+  assert.deepEqual([minimum, maximum], [mesh.getBoundingInfo().minimum, mesh.getBoundingInfo().maximum]);
+  assert.ok(Math.abs(boundingBox.centerWorld.x - 100) < 1);
+  for (const part of parts) assert.ok(part.boundingBox.minimumWorld.x > 80);
+});
+
+test('materials that it made go with the last mesh that shows them', options, async () => {
+  const {scene, mesh, SweepfaceMesh} = await load(), {StandardMaterial} = await import(`${core}/Materials/standardMaterial.js`);
+  const count = () => scene.materials.length + scene.multiMaterials.length, all = count();
+  const twin = mesh.clone();
+  mesh.dispose();
+  assert.equal(count(), all);
+  twin.dispose();
+  assert.equal(count(), 0);
+  const mine = new StandardMaterial('mine', scene), face = (await load()).mesh.face.clone();
+  new SweepfaceMesh('face', scene, face, mine).dispose();
+  assert.deepEqual(scene.materials, [mine]);
+});
+
+test('a scene is not ready before the face is there', options, async () => {
+  const {scene, SweepfaceMesh} = await load();
+  const loading = SweepfaceMesh.load(readFileSync(sample), scene);
+  assert.equal(scene.isLoading, true);
+  await loading;
+  assert.equal(scene.isLoading, false);
+  await assert.rejects(SweepfaceMesh.load(new Uint8Array(3), scene));
+  assert.equal(scene.isLoading, false);
 });
 
 test('a still face is not evaluated again', options, async () => {
@@ -218,6 +281,8 @@ test('faces have regions and eyes', options, async () => {
 test('what is no face is refused', options, async () => {
   const {scene, SweepfaceMesh} = await load();
   assert.throws(() => new SweepfaceMesh('face', scene, readFileSync(sample)), /await Sweepface.load/);
+  const {face} = (await load()).mesh;
+  assert.throws(() => new SweepfaceMesh('face', scene, face, 'red'), /^TypeError: A mesh takes a Material/);
   await assert.rejects(SweepfaceMesh.load(new Uint8Array([1, 2, 3]), scene), /check that it is a \.sweep file/);
 });
 

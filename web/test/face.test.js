@@ -3,6 +3,7 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync, statSync} from 'node:fs';
 import {basename} from 'node:path';
 import test from 'node:test';
+import {setFlagsFromString} from 'node:v8';
 import {runInNewContext} from 'node:vm';
 import {Sweepface} from '../sweepface.js';
 import {difference, everyFile, exported, packed, played, sample, someWeights, withArcs} from './native.js';
@@ -290,6 +291,18 @@ test('what a face tells is the caller\'s to change', async () => {
     face[key].fill(1);
     assert.deepEqual([...face[key]], before, key);
   }
+});
+
+test('faces that nobody disposed of are freed with what refers to them', async () => {
+  setFlagsFromString('--expose-gc');
+  const collect = runInNewContext('gc'), kept = await Sweepface.load(readFileSync(sample)), before = kept.memoryBytes;
+  for (let round = 0; round < 20; ++round) {
+    for (let k = 0; k < 20; ++k) kept.clone().setWeights({jawOpen: 1});
+    collect();
+    await new Promise((resolve) => setTimeout(resolve, 10));
+  }
+  assert.ok(kept.memoryBytes < before + 100 * 24 * kept.vertexCount, `${kept.memoryBytes - before} bytes more`);
+  assert.equal(kept.weights.jawOpen, 0);
 });
 
 test('faces of one file share it and are disposed of one by one', async () => {

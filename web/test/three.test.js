@@ -187,6 +187,36 @@ test('an update costs nothing where nothing moves', options, async () => {
   assert.equal(position.version, after);
 });
 
+test('an update tells whether there is something to draw', options, async () => {
+  const mesh = await load();
+  assert.equal(mesh.update(), false);
+  mesh.setWeights({jawOpen: 1});
+  assert.deepEqual([mesh.update(), mesh.update()], [true, false]);
+  mesh.moveTo({jawOpen: 0}, {kind: 'linear-force', seconds: 0.1});
+  assert.deepEqual([0.05, 0, 0.06, 0.01, 0.01].map((seconds) => mesh.update(seconds)), [true, true, true, true, false]);
+  mesh.dispose();
+  assert.equal(mesh.update(), false);
+});
+
+test('vertices are moved by the mesh or in a clone of the geometry, as they follow the face', options, async () => {
+  const {geometry} = await load(), {array} = geometry.attributes.position, before = array.slice();
+  for (const move of [() => geometry.scale(2, 2, 2), () => geometry.center(), () => geometry.rotateX(1)])
+    assert.throws(move, /The vertices follow the face; move, turn or scale the mesh/);
+  assert.deepEqual(array, before);
+  assert.equal(geometry.clone().scale(2, 2, 2).attributes.position.array[0], 2 * array[0]);
+});
+
+test('the sphere around a face is the one that three.js finds', options, async () => {
+  const mesh = await load(), {geometry} = mesh, first = geometry.boundingSphere.radius;
+  mesh.setWeights({jawOpen: 9});
+  mesh.update();
+  const {center, radius} = geometry.boundingSphere.clone();
+  geometry.computeBoundingSphere();
+  assert.ok(center.distanceTo(geometry.boundingSphere.center) < 1e-5);
+  assert.ok(Math.abs(radius - geometry.boundingSphere.radius) < 1e-5);
+  assert.notEqual(radius, first);
+});
+
 test('a slow motion moves a mesh, and one that waits uploads nothing once it is over', options, async () => {
   const mesh = await load(), {position} = mesh.geometry.attributes;
   mesh.moveTo({jawOpen: 0.2}, {kind: 'accelerate-brake', seconds: 2});
@@ -464,6 +494,40 @@ test('rays meet a face on the graphics card where they meet one that is not', op
   assert.deepEqual(position.array, neutral);
 });
 
+test('rays evaluate a face on the graphics card once for each expression, without a tree of its neutral', options, async () => {
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js'), mesh = new SweepfaceGpuMesh((await load()).face);
+  const {face, geometry} = mesh, evaluate = face.evaluate.bind(face), boundsTree = {}, {raycast} = three.Mesh.prototype;
+  const rays = new three.Raycaster(new three.Vector3(0, 0, 100), new three.Vector3(0, 0, -1));
+  let count = 0, seen;
+  face.evaluate = (...given) => { ++count; evaluate(...given); };
+  geometry.boundsTree = boundsTree;
+  three.Mesh.prototype.raycast = function(...given) {  // as three-mesh-bvh has it
+    seen = this.geometry.boundsTree;
+    raycast.call(this, ...given);
+  };
+  try {
+    for (const times of [1, 2, 3]) assert.ok(rays.intersectObject(mesh).length > 0, times);
+    assert.equal(count, 1);
+    mesh.setWeights({jawOpen: 1});
+    for (let k = 0; k < 2; ++k) rays.intersectObject(mesh);
+    assert.equal(count, 2);
+    geometry.deleteAttribute('normal');
+    assert.equal(rays.intersectObject(mesh)[0].normal, undefined);
+    assert.equal(seen, undefined);
+    assert.equal(geometry.boundsTree, boundsTree);
+  } finally {
+    three.Mesh.prototype.raycast = raycast;
+  }
+});
+
+test('a mesh on the graphics card says which renderer it is for, once', options, async (context) => {
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js'), {face} = await load(), said = [];
+  context.mock.method(console, 'error', (sentence) => said.push(sentence));
+  const meshes = [0, 1].map(() => new SweepfaceGpuMesh(face.clone()));
+  for (const mesh of meshes) for (const renderer of [{isWebGLRenderer: true}, {isRenderer: true}]) mesh.onBeforeRender(renderer);
+  assert.deepEqual(said, ['WebGPURenderer draws the neutral of every SweepfaceGpuMesh; make a SweepfaceNodeMesh for it.']);
+});
+
 test('materials keep what they do to a shader, and their clones too', options, async () => {
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
   const face = await Sweepface.load(readFileSync(sample));
@@ -574,6 +638,31 @@ test('a loader aborts its downloads', {...options, timeout: 10_000}, async () =>
   }
 });
 
+test('a loader that is aborted hands over no face', {...options, timeout: 10_000}, async () => {
+  const {fetch} = globalThis, {SweepfaceLoader, SweepfaceMesh} = await import('../sweepface_three.js'), made = [];
+  class Mine extends SweepfaceMesh {
+    constructor(...given) {
+      super(...given);
+      made.push(this);
+      loader.abort();  // when all is there, but nobody knows yet
+    }
+  }
+  const loader = new SweepfaceLoader(undefined, {mesh: Mine});
+  globalThis.fetch = async () => new Response(readFileSync(sample));
+  try {
+    await assert.rejects(loader.loadAsync('http://a/face'), {name: 'AbortError'});
+    assert.throws(() => made[0].face.names, /disposed of/);
+  } finally {
+    globalThis.fetch = fetch;
+  }
+});
+
+test('a loader tells of what is no URL, and takes no path for options', options, async () => {
+  const {SweepfaceLoader} = await import('../sweepface_three.js');
+  assert.match((await happenings('http://[')).join(), /^amiss,all,.*URL/);
+  await assert.rejects(new SweepfaceLoader().parseAsync(readFileSync(sample), 'faces/'), /takes bytes and options, no path/);
+});
+
 test('a loader asks as it was told, and tells how far it is', {...options, timeout: 10_000}, async () => {
   const {fetch} = globalThis, {SweepfaceLoader} = await import('../sweepface_three.js'), loader = new SweepfaceLoader();
   const far = [];
@@ -681,6 +770,18 @@ test('a disposed mesh gives its materials and its face back', options, async () 
   mesh.dispose();
   assert.equal(gone, materials.length);
   assert.throws(() => mesh.face.names, {message: 'The face was disposed of.'});
+});
+
+test('clones share materials until the last of them goes', options, async () => {
+  const mesh = await load(), twin = mesh.clone(), other = new three.MeshBasicMaterial(), gone = new Set();
+  for (const material of [...mesh.material, other]) material.addEventListener('dispose', ({target}) => gone.add(target));
+  mesh.dispose();
+  mesh.dispose();
+  assert.equal(gone.size, 0);
+  const made = twin.material;
+  twin.material = other;
+  twin.dispose();
+  assert.deepEqual(gone, new Set([...made, other]));
 });
 
 /** The vertex that an expression moves farthest. */

@@ -35,7 +35,9 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.setWeights({jawOpen: 0.7});
   mesh.reset();
   mesh.moveTo({jawOpen: 0}, 'spring');
-  mesh.update(1 / 60);
+  const isToDraw: boolean = mesh.update(1 / 60);
+  // @ts-expect-error Weights are set by setWeights.
+  mesh.weights.jawOpen = isToDraw ? 1 : 0;
   const twin: SweepfaceMesh = mesh.clone();
   mesh.material.find(({name}) => name === 'skin')?.color.set(0xe8b89a);
   const other: SweepfaceMesh<Material | Material[]> = mesh;

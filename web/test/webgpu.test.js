@@ -102,6 +102,13 @@ for (const backend of ['WebGPU', 'WebGL'])
         result.left = await compared([otherCpu, twins[0]], [otherCard, twins[1]]);
         const plain = (mesh) => Object.assign(new THREE.Mesh(mesh.geometry, mesh.material), {frustumCulled: false});
         result.plain = await compared([plain(twins[0]), otherCpu], [plain(twins[1]), otherCard]);
+        const many = (mesh) => {
+          const made = Object.assign(new THREE.InstancedMesh(mesh.geometry, mesh.material, 2), {frustumCulled: false});
+          made.setMatrixAt(0, new THREE.Matrix4().makeScale(0.5, 0.5, 0.5));
+          made.setMatrixAt(1, new THREE.Matrix4().makeRotationY(1).scale(new THREE.Vector3(0.4, 0.4, 0.4)).setPosition(0.5 * radius, 0, 0));
+          return made;
+        };
+        result.instances = await compared([many(twins[0]), otherCpu], [many(twins[1]), otherCard]);
         return result;
       });
       const {moved, ...off} = found;
