@@ -265,10 +265,12 @@ Result<Rig> opened(std::string_view bytes, const std::string& path) {
 Result<Rig> readBack(std::string_view bytes, const std::string& path) {
   Result<Rig> rig = decode(bytes, "it");
   if (rig) return rig;
+  const std::string why = rig.error().message;
   return fail(
-      fmt::format("Cannot write {}: the model is too large for the format, or has too little in it "
-                  "for its size, so that who reads it would be told: {}",
-                  path, rig.error().message));
+      fmt::format("Cannot write {}: it could not be opened again, as the model is too large for "
+                  "the format, or has too little in it for its size ({}); scale it down, or leave "
+                  "it unpacked.",
+                  path, why.substr(0, why.find(';'))));
 }
 
 Result<std::string> encodeReadable(const Rig& rig, const std::string& path) {
@@ -348,9 +350,10 @@ Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar) {
         bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
       });
   if (!source || meshes.subdivisions == 0) return source;
-  Result<MeshRig> limit = subdivide(source->rig, meshes.subdivisions);
+  Result<Subdivision> limit = subdivide(source->rig, meshes.subdivisions);
   if (!limit) return fail(fmt::format("{}: {}.", meshes.neutral, limit.error().message));
-  source->rig = std::move(*limit);
+  source->rig = std::move(limit->rig);
+  std::ranges::move(limit->warnings, std::back_inserter(source->faceWarnings));
   return source;
 }
 

@@ -235,6 +235,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   bar.reset();
 
   std::vector<std::string>& warnings = conversion->warnings;
+  if (a.meshes.subdivisions > 0)
+    for (std::string& warning : warnings) warning = "Of the subdivided mesh: " + warning;
   std::ranges::move(warningsOf(a, *parts, *source), std::back_inserter(warnings));
   if (auto lost = lostMovement(source->rig, verified->kept); !lost.empty())
     warnings.push_back(std::move(lost));

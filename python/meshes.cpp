@@ -92,9 +92,9 @@ RigSource withShapes(RigSource meshes, const py::object& targets, const py::obje
 }
 
 RigSource subdivided(const RigSource& meshes, int levels) {
-  RigSource limit;
-  limit.rig = valueOf(released([&] { return subdivide(meshes.rig, levels); }));
-  return limit;
+  Subdivision limit = valueOf(released([&] { return subdivide(meshes.rig, levels); }));
+  warn(limit.warnings);
+  return {std::move(limit.rig), {}, {}};
 }
 
 RigSource readMeshes(const std::filesystem::path& neutral, const py::object& targets) {

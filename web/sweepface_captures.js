@@ -85,12 +85,16 @@ function readLiveLink(text, name, framesPerSecond) {
   const expected = headings.length;
   const last = rest.length > 1 && rest.at(-1) === lines.at(-1) ? cellsOf(rest.at(-1).text) : null;
   const half = last && isHalf(last, expected) ? rest.pop() : null;
+  let isClock;
   const weights = [], rows = rest.map((line) => {
     const cells = cellsOf(line.text);
     if (endsEmpty && cells.length === expected + 1 && cells.at(-1) === '') cells.pop();
     if (cells.length !== expected)
       throw fail(line, `there are ${cells.length} values under ${expected} headings; the file may be cut short`);
     const time = timeOf(cells[timeColumn], (what) => fail(line, what));
+    isClock ??= time.isClock;
+    if (time.isClock !== isClock)
+      throw fail(line, `the time '${cells[timeColumn]}' is of another kind than the ones above`);
     for (const [shape, c] of shapes) {
       const value = numberIn(cells[c]);
       if (!isWeight(value))
@@ -177,7 +181,7 @@ function timeOf(timecode, fail) {
   if (seconds < 0 && seconds >= -MOST_TIME) throw fail(`the time '${timecode}' is below 0`);
   if (Math.abs(seconds) <= MOST_TIME) return {seconds, frames: 0, isClock: false};
   const plain = timecode.replace(/^([^:;]*:[^:;]*:[^:;]*);/, '$1:'), parts = plain.split(':').map(numberIn);
-  if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6))
+  if (parts.length !== 4 || !parts.every((part) => part >= 0 && !Object.is(part, -0) && part <= 1e6))
     throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
   if (parts[1] >= 60 || parts[2] >= 60)
     throw fail(`the timecode '${timecode}' has more than 59 minutes or seconds`);

@@ -58,7 +58,7 @@ struct NormalTry {
 /// figure in a refusal can be reached by asking for it.
 std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) {
   const double limit = options.normalLimit > 0 ? options.normalLimit : usual;
-  if (!(options.normalTolerance > 0)) return {{limit, false}};
+  if (!(options.normalTolerance > 0)) return {{limit, false}, {180, false}};
   if (options.normalLimit > 0) return {{limit, true}, {limit, false}};
   std::vector<NormalTry> tries{{usual, true}, {180, true}};
   const double tight = std::max(kLimitForTolerance * options.normalTolerance, kTightest);
@@ -66,6 +66,10 @@ std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) 
   for (double next = usual; next >= kTightest; next /= 2) tries.push_back({next, false});
   return tries;
 }
+
+constexpr const char* kWithoutNormals =
+    "The tolerance was out of reach while normals were to be near the mesh's; so they were left to "
+    "themselves, as with --normal-limit 180.";
 
 /// Rounded up to four digits, so that what is written is never too small.
 double roundedUp(double x) {
@@ -96,10 +100,11 @@ class Converter {
     for (const NormalTry& next : normalTries(options_, usualLimit_)) {
       auto conversion = convertWithin(*mesh, next);
       if (!conversion) {
-        if (progress_.cancelled() || !limitsNormals) return conversion;
+        if (progress_.cancelled()) return conversion;
         failure = conversion.error();
       } else if (!limitsNormals || normalRms_ <= options_.normalTolerance) {
         progress_.end();
+        if (failure && !limitsNormals) conversion->warnings.push_back(kWithoutNormals);
         return conversion;
       } else if (!next.isGuided) {
         nearest_ = std::min(nearest_, normalRms_);

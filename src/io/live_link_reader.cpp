@@ -178,6 +178,9 @@ class LiveLinkReader {
                       row.size(), columns_));
     const Result<RowTime> time = timecode(row[timeColumn_]);
     if (!time) return std::unexpected(time.error());
+    if (!timecodes_.empty() && time->isClock != timecodes_.front().isClock)
+      return failLine(fmt::format("the time {} is of another kind than the ones above",
+                                  inQuotes(row[timeColumn_])));
     timecodes_.push_back(*time);
     for (std::size_t k = 0; k < shapeColumns_.size(); ++k) {
       const std::string_view cell = row[shapeColumns_[k]];
@@ -207,7 +210,7 @@ class LiveLinkReader {
                                        : rest.size();
       const auto part = end == std::string_view::npos ? std::optional<double>{}
                                                       : toNumber<double>(rest.substr(0, end));
-      if (!part || !(*part >= 0) || *part > 1e6)
+      if (!part || std::signbit(*part) || *part > 1e6)
         return failLine(fmt::format("{} is not a timecode like 12:59:59:23.500", inQuotes(text)));
       parts[k] = *part;
       if (k == 2) dropsFrames = rest[end] == ';';

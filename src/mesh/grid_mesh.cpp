@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "mesh/face_cutter.hpp"
+#include "mesh/face_repeats.hpp"
 #include "mesh/shared_edges.hpp"
 #include "mesh/weld.hpp"
 #include "surface/union_find.hpp"
@@ -103,33 +104,9 @@ void placeSource(GridMesh& mesh, const Polygons& faces, const std::vector<Index>
     if (mesh.pointOfSource[v] < 0) mesh.pointOfSource[v] = welded[first[v]];
 }
 
-std::string plural(Index count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-// Whether a face goes around the vertices of an earlier one, in the other direction or the same.
-enum class Kind { alone, back, again };
-std::vector<Kind> kindsOf(const Polygons& faces) {
-  const auto fromSmallest = [](std::vector<Index> around) {
-    std::ranges::rotate(around, std::ranges::min_element(around));
-    return around;
-  };
-  std::set<std::vector<Index>> known;
-  std::vector<Kind> kinds;
-  for (Index f = 0; f < faces.faceCount(); ++f) {
-    std::vector<Index> around(faces.corners.begin() + faces.faceStart[f],
-                              faces.corners.begin() + faces.faceStart[f + 1]);
-    const bool isNew = known.insert(fromSmallest(around)).second;
-    std::ranges::reverse(around);
-    const bool isBack = known.contains(fromSmallest(around));
-    kinds.push_back(!isNew ? Kind::again : isBack ? Kind::back : Kind::alone);
-  }
-  return kinds;
-}
-
 // The grid mesh of the source with its vertices welded as `first` says; edges left open go to
 // `cut`.
-Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
+Result<GridMesh> build(const MeshRig& rig, const std::vector<FaceRepeat>& repeats,
                        const std::vector<Index>& first, std::vector<std::pair<Index, Index>>& cut) {
   const Polygons& faces = rig.neutral.polygons;
   FaceCutter cutter(rig.neutral.positions);
@@ -139,7 +116,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
     if (faces.faceSize(f) > kMostCorners)
       return fail("face ", f + 1, " has ", faces.faceSize(f), " corners, of which ", kMostCorners,
                   " are the most; cut it into smaller ones");
-    if (kinds[f] == Kind::again) continue;
+    if (repeats[f] == FaceRepeat::again) continue;
     std::vector<Corner> face;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
       face.push_back({first[faces.corners[c]], c});
@@ -147,7 +124,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
     cutter.cut(std::move(face));
     without += cutter.pieces.size() == before;
     // A sheet and its back share no vertex: the back's are numbered from `count` on.
-    if (kinds[f] == Kind::back)
+    if (repeats[f] == FaceRepeat::back)
       for (std::size_t k = before; k < cutter.pieces.size(); ++k)
         for (Corner& corner : cutter.pieces[k]) corner.vertex += count;
   }
@@ -174,10 +151,8 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
     mesh.warnings.push_back(
         plural(without, "face has", "faces have") +
         " fewer than three different corners and no surface; the source order keeps them.");
-  if (const auto again = static_cast<Index>(std::ranges::count(kinds, Kind::again)); again > 0)
-    mesh.warnings.push_back(plural(
-        again, "face has the corners of another one and no surface of its own; leave it out.",
-        "faces have the corners of another one and no surface of their own; leave them out."));
+  if (std::string sentence = warningOfCopies(repeats); !sentence.empty())
+    mesh.warnings.push_back(std::move(sentence));
   return mesh;
 }
 
@@ -191,13 +166,13 @@ std::string warningOf(const OpenSeams& seams) {
 }  // namespace
 
 Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding, double gap) {
-  const std::vector<Kind> kinds = kindsOf(rig.neutral.polygons);
+  const std::vector<FaceRepeat> repeats = faceRepeats(rig.neutral.polygons);
   std::vector<Index> first = weld(rig);
   if (rounding > 0) rounding = weldRounded(rig, rounding, first);
   const OpenSeams seams = gap > 0 ? openSeams(rig, gap, first) : OpenSeams{};
   while (true) {
     std::vector<std::pair<Index, Index>> cut;
-    auto mesh = build(rig, kinds, first, cut);
+    auto mesh = build(rig, repeats, first, cut);
     if (!mesh) return mesh;
     mesh->rounding = rounding;
     if (seams.vertices > 0) mesh->warnings.push_back(warningOf(seams));

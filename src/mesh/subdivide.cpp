@@ -149,11 +149,11 @@ Polygons polygonsOf(const Far::TopologyRefiner& refiner, const Cage& cage, const
 
 }  // namespace
 
-Result<MeshRig> subdivide(const MeshRig& cage, int levels) {
+Result<Subdivision> subdivide(const MeshRig& cage, int levels) {
   if (levels < 1 || levels > kMostSubdivisions)
     return fail("there are 1 to ", kMostSubdivisions, " levels of subdivision, not ", levels);
   if (auto ok = checkIndices(cage); !ok) return std::unexpected(ok.error());
-  const Cage topology = cageOf(cage);
+  Cage topology = cageOf(cage);
   if (topology.faces.empty()) return fail("the mesh has no face with an area to be subdivided");
   if (auto ok = checkSize(topology, levels); !ok) return std::unexpected(ok.error());
   const Refiner refiner = refine(topology, levels);
@@ -169,7 +169,7 @@ Result<MeshRig> subdivide(const MeshRig& cage, int levels) {
     else
       limit.targets[pose - 1] = {cage.targets[pose - 1].name, std::move(places)};
   });
-  return limit;
+  return Subdivision{std::move(limit), std::move(topology.warnings)};
 }
 
 }  // namespace sweepface

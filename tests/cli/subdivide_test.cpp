@@ -18,7 +18,7 @@ TEST_F(Subdivide, FitsTheLimitOfEveryExpression) {
   EXPECT_EQ(nlohmann::json::parse(made.out)["vertices"], 25 * 21);
   for (const std::string target : {"", "jawOpen", "smile"}) {
     const std::string file = target.empty() ? "neutral" : "targets/" + target;
-    const MeshRig limit = subdivide({mesh(file + ".obj"), {}}, 2).value();
+    const MeshRig limit = subdivide({mesh(file + ".obj"), {}}, 2).value().rig;
     ASSERT_EQ(run("export face.sweep -o out.obj --weights '" + target + "'").code, 0);
     const PolygonMesh out = mesh("out.obj");
     EXPECT_LE(largestDistance(out.positions, limit.neutral.positions), 0.002);
@@ -60,6 +60,15 @@ TEST_F(Subdivide, IsRefusedWhereItCannotBe) {
   ASSERT_EQ(run("convert neutral.obj targets -o face.sweep").code, 0);
   EXPECT_TRUE(fails("report face.sweep -o r.html --subdivide 1", "NEUTRAL", 2));
   EXPECT_TRUE(fails("render face.sweep -o r.png --subdivide 1", "--compare", 2));
+}
+
+TEST_F(Subdivide, WarnsOfFacesInTheCagesNumbers) {
+  folder.file("twice.obj", sheet() + "f 1 2 9 8\nf 1 2 20\n");
+  const Outcome r = run("convert twice.obj -o face.sweep --subdivide 1 --tolerance 0.1");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("warning: 1 face has the corners of another one"), std::string::npos)
+      << r.err;
+  EXPECT_NE(r.err.find("warning: Of the subdivided mesh: "), std::string::npos) << r.err;
 }
 
 TEST_F(Subdivide, TakesAGlbWithoutItsScene) {

@@ -576,6 +576,24 @@ TEST(Refusal, ofAToleranceThatNoCoordinateButTheirDistanceExceeds) {
       << why;
 }
 
+// A pole of hundreds of rays in a target that bends it: normals near the mesh's are out of reach.
+TEST(ConvertLong, leavesNormalsToThemselvesWhereTheyKeepItFromItsTolerance) {
+  MeshRig rig{uvSphere(384, 20, 1), {}};
+  MeshTarget bent{"bent", rig.neutral.positions};
+  for (Vec3& p : bent.positions) {
+    const Vec3 way = p - Vec3{0.1, 0.05, 1};
+    p += std::exp(-dot(way, way) / 0.16) * Vec3{0.1, 0.05, 0.1};
+  }
+  rig.targets.push_back(std::move(bent));
+  ConvertOptions options;
+  options.tolerance = 0.0007;
+  const auto conversion = convert(rig, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_LE(worstDistance(conversion->rig, rig), 0.0007);
+  ASSERT_FALSE(conversion->warnings.empty());
+  EXPECT_NE(conversion->warnings.back().find("--normal-limit 180"), std::string::npos);
+}
+
 // The large coordinates are single-precision numbers, as those in files often are.
 TEST(Convert, takesNumbersThatAFileHoldsFarFromTheOrigin) {
   MeshRig far = withTargets(plane(4, 4), 0);

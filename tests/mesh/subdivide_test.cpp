@@ -8,14 +8,14 @@ namespace {
 using namespace sweepface::testing;
 
 MeshRig limitOf(const MeshRig& cage, int levels) {
-  Result<MeshRig> limit = subdivide(cage, levels);
+  Result<Subdivision> limit = subdivide(cage, levels);
   EXPECT_TRUE(limit) << (limit ? "" : limit.error().message);
-  return limit ? *limit : MeshRig{};
+  return limit ? limit->rig : MeshRig{};
 }
 MeshRig limitOf(const PolygonMesh& cage, int levels) { return limitOf(MeshRig{cage, {}}, levels); }
 
 std::string refusal(const MeshRig& cage, int levels = 1) {
-  const Result<MeshRig> limit = subdivide(cage, levels);
+  const Result<Subdivision> limit = subdivide(cage, levels);
   return limit ? "nothing" : limit.error().message;
 }
 
@@ -240,6 +240,38 @@ TEST(Subdivide, TakesFacesThatRunToAPoint) {
   for (PolygonMesh* mesh : {&cage, &same})
     for (const Vec3& p : uvSphere().positions) mesh->positions.push_back(p);
   EXPECT_EQ(quadPlaces(limitOf(cage, 1).neutral), quadPlaces(limitOf(same, 1).neutral));
+}
+
+TEST(Subdivide, LeavesOutFacesThatAreThereAgain) {
+  const PolygonMesh cage = cubeSphere(3);
+  PolygonMesh twice = cage;
+  for (Loop face : {loopsOf(cage.polygons)[4], loopsOf(cage.polygons)[9]}) {
+    std::ranges::rotate(face, face.begin() + 1);
+    addFace(twice, face);
+  }
+  addFace(twice, {1, 1, 2});
+  const Result<Subdivision> limit = subdivide({twice, {}}, 1);
+  ASSERT_TRUE(limit);
+  EXPECT_EQ(quadPlaces(limit->rig.neutral), quadPlaces(limitOf(cage, 1).neutral));
+  ASSERT_EQ(limit->warnings.size(), 2u);
+  EXPECT_EQ(limit->warnings[0],
+            "1 face has fewer than three different corners and no surface to subdivide.");
+  EXPECT_EQ(limit->warnings[1],
+            "2 faces have the corners of another one and no surface of their own; leave them out.");
+}
+
+// Lashes and hair cards: faces modelled from both sides.
+TEST(Subdivide, KeepsASheetAndItsBackApart) {
+  const PolygonMesh sheet = plane(4, 3);
+  PolygonMesh both = sheet;
+  for (Loop face : loopsOf(sheet.polygons)) {
+    std::ranges::reverse(face);
+    addFace(both, face);
+  }
+  const PolygonMesh limit = limitOf(both, 1).neutral, one = limitOf(sheet, 1).neutral;
+  EXPECT_EQ(limit.positions.size(), 2 * one.positions.size());
+  EXPECT_EQ(topologyOf(loopsOf(limit.polygons)).overfullEdges, 0);
+  EXPECT_EQ(quadPlaces(limit), quadPlaces(one));
 }
 
 class SubdivideEach : public ::testing::TestWithParam<Face> {};
