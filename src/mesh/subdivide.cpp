@@ -6,6 +6,7 @@
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
+#include <type_traits>
 
 #include "sweepface/subdivision.hpp"
 
@@ -64,52 +65,54 @@ Refiner refine(const Cage& cage, int levels) {
   return refiner;
 }
 
-/// A weighted sum of values, as OpenSubdiv forms it.
-struct PointSum {
-  Vec3 value;
+void add(Vec3& sum, double weight, const Vec3& value) { sum += weight * value; }
+void add(Vec2& sum, double weight, const Vec2& value) {
+  sum.x += weight * value.x, sum.y += weight * value.y;
+}
+
+/// A weighted sum, as OpenSubdiv forms it.
+template <typename Value>
+struct Sum {
+  Value value;
   void Clear() { value = {}; }
-  void AddWithWeight(const PointSum& other, double weight) { value += weight * other.value; }
+  void AddWithWeight(const Sum& other, double weight) { add(value, weight, other.value); }
 };
-struct TexcoordSum {
-  Vec2 value;
-  void Clear() { value = {}; }
-  void AddWithWeight(const TexcoordSum& other, double weight) {
-    value.x += weight * other.value.x, value.y += weight * other.value.y;
+
+/// The limits of positions, or of texture coordinates.
+template <typename Value>
+std::vector<Value> limitsOf(const Far::TopologyRefiner& refiner, std::vector<Sum<Value>> sums) {
+  constexpr bool isTexture = std::is_same_v<Value, Vec2>;
+  const Far::PrimvarRefinerReal<double> primvars(refiner);
+  for (int level = 1; level <= refiner.GetMaxLevel(); ++level) {
+    const Far::TopologyLevel& next = refiner.GetLevel(level);
+    std::vector<Sum<Value>> finer(isTexture ? next.GetNumFVarValues() : next.GetNumVertices());
+    if constexpr (isTexture)
+      primvars.InterpolateFaceVarying(level, sums, finer);
+    else
+      primvars.Interpolate(level, sums, finer);
+    sums = std::move(finer);
   }
-};
-using Primvars = Far::PrimvarRefinerReal<double>;
+  std::vector<Sum<Value>> limits(sums.size());
+  if constexpr (isTexture)
+    primvars.LimitFaceVarying(sums, limits);
+  else
+    primvars.Limit(sums, limits);
+  std::vector<Value> values;
+  for (const Sum<Value>& limit : limits) values.push_back(limit.value);
+  return values;
+}
 
 std::vector<Vec3> limitOf(const Far::TopologyRefiner& refiner, const Cage& cage,
                           const std::vector<Vec3>& positions) {
-  const Primvars primvars(refiner);
-  std::vector<PointSum> sums;
+  std::vector<Sum<Vec3>> sums;
   for (const Index v : cage.vertices) sums.push_back({positions[v]});
-  for (int level = 1; level <= refiner.GetMaxLevel(); ++level) {
-    std::vector<PointSum> finer(refiner.GetLevel(level).GetNumVertices());
-    primvars.Interpolate(level, sums, finer);
-    sums = std::move(finer);
-  }
-  std::vector<PointSum> limits(sums.size());
-  primvars.Limit(sums, limits);
-  std::vector<Vec3> places;
-  for (const PointSum& limit : limits) places.push_back(limit.value);
-  return places;
+  return limitsOf(refiner, std::move(sums));
 }
 
 std::vector<Vec2> limitOfTexture(const Far::TopologyRefiner& refiner, const Cage& cage) {
-  const Primvars primvars(refiner);
-  std::vector<TexcoordSum> sums;
+  std::vector<Sum<Vec2>> sums;
   for (const Vec2& place : cage.texcoords) sums.push_back({place});
-  for (int level = 1; level <= refiner.GetMaxLevel(); ++level) {
-    std::vector<TexcoordSum> finer(refiner.GetLevel(level).GetNumFVarValues());
-    primvars.InterpolateFaceVarying(level, sums, finer);
-    sums = std::move(finer);
-  }
-  std::vector<TexcoordSum> limits(sums.size());
-  primvars.LimitFaceVarying(sums, limits);
-  std::vector<Vec2> places;
-  for (const TexcoordSum& limit : limits) places.push_back(limit.value);
-  return places;
+  return limitsOf(refiner, std::move(sums));
 }
 
 /// [faces of the last level] the face of the cage that each is part of.

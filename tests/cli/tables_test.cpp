@@ -25,7 +25,7 @@ class Tables : public Tool {
 };
 
 TEST_F(Tables, HaveARowForEveryFaceAndTolerance) {
-  const Outcome r = tables("sheet: neutral.obj targets -- 0.1 0.05p still: neutral.obj -- '0.1*'");
+  const Outcome r = tables("sheet: neutral.obj targets -- 0.1 0.05p still: neutral.obj -- '0.1*s'");
   ASSERT_EQ(r.code, 0) << r.err;
   std::vector<std::string> lines;
   std::istringstream text(r.out);
@@ -38,7 +38,8 @@ TEST_F(Tables, HaveARowForEveryFaceAndTolerance) {
     EXPECT_NE(lines[0].find(" " + column + " |"), std::string::npos) << column;
   EXPECT_TRUE(lines[2].starts_with("| sheet | 0.1 | ")) << lines[2];
   EXPECT_TRUE(lines[3].starts_with("|  | 0.05, packed | ")) << lines[3];
-  EXPECT_TRUE(lines[4].starts_with("| still | 0.1, no limit on normals | ")) << lines[4];
+  EXPECT_TRUE(lines[4].starts_with("| still | 0.1, no limit on normals, subdivided | "))
+      << lines[4];
 }
 
 TEST_F(Tables, SayWhatIsWrong) {

@@ -122,11 +122,12 @@ TEST(LiveLinkCsv, LeavesOutARowThatARecorderStoppedIn) {
 }
 
 TEST(LiveLinkCsv, MayComeFromASpreadsheet) {
-  const auto clip = csv(
-      "\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" ,\n\"0:0:0;30\",\"0.5\",1,\n1,0,0,\n");
+  const auto clip =
+      csv("\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" "
+          ",\n\"0:0:0;30\",\"0.5\",1,\n0:0:1;0,0,0,\n");
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->names, (std::vector<std::string>{"JawOpen", "a b"}));
-  EXPECT_EQ(clip->times, (std::vector<double>{0.5005, 1}));
+  EXPECT_EQ(clip->times, (std::vector<double>{0.5005, 1.001}));
   EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 1, 0, 0}));
   expectError(csv("Timecode;a\n1;0,5\n"), "line 1: the columns are separated by semicolons; save");
   expectError(csv("Timecode\ta\n1\t0\n"),
