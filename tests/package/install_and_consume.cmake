@@ -43,6 +43,13 @@ foreach(library IN ITEMS sweepface sweepface_clips)
   refuse_exports(${prefix}/${LIBDIR}/lib${library}.so " [A-Za-z] ([^s]|s[^w]|sw[^e])[^\n]*")
 endforeach()
 
+# What reads clips needs no more of the converter's libraries than that takes.
+execute_process(COMMAND readelf -d ${prefix}/${LIBDIR}/libsweepface_clips.so OUTPUT_VARIABLE needed
+                COMMAND_ERROR_IS_FATAL ANY)
+if(needed MATCHES "osdCPU")
+  message(FATAL_ERROR "libsweepface_clips.so needs OpenSubdiv.")
+endif()
+
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 consume(${CONSUMER} by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
 
