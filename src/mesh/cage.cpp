@@ -79,9 +79,9 @@ class CageMaker {
   /// The corners of a face at another vertex than the one before.
   std::vector<Index> differentCorners(Index f) const {
     std::vector<Index> corners;
-    for (Index c = faces_.faceStart[f]; c < faces_.faceStart[f + 1]; ++c)
-      if (vertex_[next(f, c)] != vertex_[c]) corners.push_back(next(f, c));
-    std::ranges::sort(corners);
+    for (Index c = faces_.faceStart[f], before = faces_.faceStart[f + 1] - 1;
+         c < faces_.faceStart[f + 1]; before = c++)
+      if (vertex_[c] != vertex_[before]) corners.push_back(c);
     return corners;
   }
 

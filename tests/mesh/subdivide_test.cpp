@@ -142,6 +142,19 @@ TEST(Subdivide, ClosesSeams) {
   EXPECT_EQ(quadPlaces(seam.neutral), quadPlaces(closed.neutral));
 }
 
+// Three sheets that touch along an edge are no fin.
+TEST(Subdivide, KeepsApartWhatMerelyTouches) {
+  const PolygonMesh sheet = grid(3, 3, [](double x, double y) { return Vec3{x, y, 0}; });
+  PolygonMesh three = sheet;
+  for (int k : {1, 2}) {
+    PolygonMesh turned = sheet;
+    for (Vec3& p : turned.positions) p = k == 1 ? Vec3{-p.x, p.y, p.x} : Vec3{-p.x, p.y, -p.x};
+    three = joined(three, turned, {});
+  }
+  EXPECT_EQ(limitOf(three, 1).neutral.positions.size(),
+            3 * limitOf(sheet, 1).neutral.positions.size());
+}
+
 // Upper and lower lip touch in the neutral, and a target parts them.
 TEST(Subdivide, KeepsApartWhatATargetParts) {
   PolygonMesh lips = joined(plane(4, 2), plane(4, 2), {0, 0, 0});
@@ -204,6 +217,79 @@ TEST(Subdivide, HandsDownTexturesMaterialsAndGroups) {
   EXPECT_EQ(without, 4 * 16);
   EXPECT_GT(widest, 0);  // where the texture ends and the surface goes on
   EXPECT_LT(widest, 0.3);
+}
+
+/// The texture coordinates that the corners at a vertex have.
+std::set<std::pair<double, double>> textureAt(const PolygonMesh& mesh, Index vertex) {
+  std::set<std::pair<double, double>> places;
+  for (std::size_t c = 0; c < mesh.polygons.corners.size(); ++c)
+    if (mesh.polygons.corners[c] == vertex) {
+      const Vec2& t = mesh.polygons.texcoords[mesh.polygons.cornerTexcoords[c]];
+      places.emplace(t.x, t.y);
+    }
+  return places;
+}
+
+TEST(Subdivide, SmoothsTexturesAsItSmoothsTheMesh) {
+  PolygonMesh cage = grid(6, 5, onRough);
+  for (Vec3& p : cage.positions) p.x += 0.2 * p.z, p.y -= 0.3 * p.z, p.z = 0;
+  for (const Vec3& p : cage.positions) cage.polygons.texcoords.push_back({p.x, p.y});
+  cage.polygons.cornerTexcoords = cage.polygons.corners;
+  for (const int levels : {1, 2}) {
+    const PolygonMesh limit = limitOf(cage, levels).neutral;
+    for (Index v = 0; v < std::ssize(limit.positions); ++v) {
+      const auto places = textureAt(limit, v);
+      ASSERT_EQ(places.size(), 1u);
+      EXPECT_NEAR(places.begin()->first, limit.positions[v].x, 1e-14);
+      EXPECT_NEAR(places.begin()->second, limit.positions[v].y, 1e-14);
+    }
+  }
+}
+
+// Where three islands meet, none of them is rounded, though one goes straight on there.
+TEST(Subdivide, KeepsTexturesSharpWhereIslandsMeet) {
+  PolygonMesh cage = grid(2, 2, [](double x, double y) { return Vec3{x, y, 0}; });
+  Polygons& p = cage.polygons;
+  for (Index f = 0; f < 4; ++f)
+    for (Index c = 4 * f; c < 4 * f + 4; ++c) {
+      const Vec3& at = cage.positions[p.corners[c]];
+      p.cornerTexcoords.push_back(c);
+      p.texcoords.push_back({at.x * at.x, at.y + (f == 0 ? 5 : f == 1 ? 9 : 0) + 0.1 * at.x});
+    }
+  EXPECT_EQ(textureAt(limitOf(cage, 1).neutral, 4), textureAt(cage, 4));
+}
+
+// As on faces whose halves have the same texture.
+TEST(Subdivide, TellsPartsApartThatLieUponEachOtherInTheTexture) {
+  PolygonMesh one = grid(3, 3, onRough);
+  const std::vector<Index> corners = one.polygons.corners;
+  PolygonMesh cage = joined(one, one, {10, 0, 0});
+  for (PolygonMesh* mesh : {&one, &cage}) {
+    for (const Vec3& p : one.positions) mesh->polygons.texcoords.push_back({p.x + 0.2 * p.z, p.y});
+    mesh->polygons.cornerTexcoords = corners;
+  }
+  cage.polygons.cornerTexcoords.insert(cage.polygons.cornerTexcoords.end(), corners.begin(),
+                                       corners.end());
+  const PolygonMesh limit = limitOf(cage, 1).neutral, half = limitOf(one, 1).neutral;
+  for (Index v = 0; v < 16; ++v) {
+    EXPECT_EQ(textureAt(limit, v), textureAt(half, v));
+    EXPECT_EQ(textureAt(limit, v + 16), textureAt(half, v));
+  }
+}
+
+TEST(Subdivide, EndsTexturesAtFacesWithoutThem) {
+  PolygonMesh cage = grid(2, 1, [](double x, double y) { return Vec3{x, y, 0}; });
+  cage.polygons.texcoords = {{0, 0}, {1, 0}, {1, 1}};
+  cage.polygons.cornerTexcoords = {-1, -1, -1, -1, 0, 1, 2, 0};
+  const PolygonMesh limit = limitOf(cage, 1).neutral;
+  int atEdge = 0;
+  for (std::size_t c = 0; c < limit.polygons.corners.size(); ++c)
+    if (const Index t = limit.polygons.cornerTexcoords[c];
+        t >= 0 && std::abs(limit.positions[limit.polygons.corners[c]].x - 1) < 0.3) {
+      EXPECT_EQ(limit.polygons.texcoords[t], (Vec2{0, 0}));
+      ++atEdge;
+    }
+  EXPECT_EQ(atEdge, 4);
 }
 
 // Away from where it ends, a texture that lies flat on a flat mesh goes on doing so.
