@@ -111,8 +111,9 @@ std::vector<std::string> MeshArguments::files() const {
 CLI::Option* addSubdivide(CLI::App& app, int& levels) {
   return app
       .add_option("--subdivide", levels,
-                  "The meshes are cages of subdivision surfaces (Catmull-Clark): use their limit, "
-                  "with every edge cut into 2^N; N from 1 to 5")
+                  fmt::format("The meshes are cages of subdivision surfaces (Catmull-Clark): use "
+                              "their limit, with every edge cut into 2^N; N from 1 to {}",
+                              kMostSubdivisions))
       ->transform(wholeNumber(1, kMostSubdivisions))
       ->type_name("N");
 }
@@ -342,19 +343,26 @@ bool isOfKind(std::string_view path, std::string_view kind) {
 
 bool isGltf(std::string_view path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }
 
-Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar) {
+Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar) {
   std::vector<fs::path> paths;
   for (const std::string& target : meshes.targets) paths.push_back(utf8Path(target));
-  Result<RigSource> source =
-      readSource(utf8Path(meshes.neutral), paths, [&](std::size_t done, std::size_t total) {
-        bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
-      });
-  if (!source || meshes.subdivisions == 0) return source;
-  Result<Subdivision> limit = subdivide(source->rig, meshes.subdivisions);
+  return readSource(utf8Path(meshes.neutral), paths, [&](std::size_t done, std::size_t total) {
+    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
+  });
+}
+
+Result<RigSource> subdivided(RigSource source, const MeshArguments& meshes) {
+  if (meshes.subdivisions == 0) return source;
+  Result<Subdivision> limit = subdivide(source.rig, meshes.subdivisions);
   if (!limit) return fail(fmt::format("{}: {}.", meshes.neutral, limit.error().message));
-  source->rig = std::move(limit->rig);
-  std::ranges::move(limit->warnings, std::back_inserter(source->faceWarnings));
+  source.rig = std::move(limit->rig);
+  std::ranges::move(limit->warnings, std::back_inserter(source.faceWarnings));
   return source;
+}
+
+Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar) {
+  Result<RigSource> source = readCages(meshes, bar);
+  return source ? subdivided(std::move(*source), meshes) : std::move(source);
 }
 
 Result<void> checkOutput(const std::string& name, const std::vector<std::string>& inputs,

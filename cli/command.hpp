@@ -138,7 +138,11 @@ bool isOfKind(std::string_view path, std::string_view kind);
 /// Whether it is a .glb or .gltf.
 bool isGltf(std::string_view path);
 
-/// Reads the meshes that the options of addMeshes() name, and subdivides them.
+/// Reads the meshes that the options of addMeshes() name, as they are in their files.
+Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar);
+/// Subdivides them as the options ask.
+Result<RigSource> subdivided(RigSource source, const MeshArguments& meshes);
+/// Does both.
 Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar);
 
 /// Checks, before the long work, that a file can be made at `output` without overwriting an input.

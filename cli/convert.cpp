@@ -165,16 +165,18 @@ bool bringsScene(const ConvertArguments& a, const Strip& parts, const RigSource&
 
 /// Reads the meshes, and the scene as the file is to hold it.
 Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, ProgressBar& bar) {
-  Result<RigSource> source = readMeshes(a.meshes, bar);
-  if (!source) return source;
-  if (a.meshes.subdivisions > 0 && bringsScene(a, parts, *source))
+  Result<RigSource> cages = readCages(a.meshes, bar);
+  if (!cages) return cages;
+  const bool keepsScene = bringsScene(a, parts, *cages) && !parts.order;
+  if (a.meshes.subdivisions > 0 && keepsScene)
     return fail(
         fmt::format("What {} holds besides the face belongs to its mesh as it is, without "
                     "--subdivide; leave it out with --bare.",
                     a.meshes.neutral));
+  Result<RigSource> source = subdivided(std::move(*cages), a.meshes);
+  if (!source) return source;
   if (a.packs()) source->scene = packedScene(std::move(source->scene));
-  if (a.maxBytes > 0 && bringsScene(a, parts, *source) && !parts.order &&
-      source->scene.size() >= a.maxBytes)
+  if (a.maxBytes > 0 && keepsScene && source->scene.size() >= a.maxBytes)
     return fail(
         fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
                     "--bare, or allow more.",

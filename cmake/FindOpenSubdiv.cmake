@@ -1,4 +1,4 @@
-# OpenSubdiv::osdCPU. Debian's package has a config file that names libraries which it lacks.
+# The target sweepface_osd::osdCPU, a name that nobody else defines. Debian's package has a config file that names libraries which it lacks.
 find_path(OpenSubdiv_INCLUDE_DIR opensubdiv/far/primvarRefiner.h)
 find_library(OpenSubdiv_LIBRARY osdCPU)
 mark_as_advanced(OpenSubdiv_INCLUDE_DIR OpenSubdiv_LIBRARY)
@@ -9,8 +9,8 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenSubdiv
   REQUIRED_VARS OpenSubdiv_LIBRARY OpenSubdiv_INCLUDE_DIR VERSION_VAR OpenSubdiv_VERSION)
-if(OpenSubdiv_FOUND AND NOT TARGET OpenSubdiv::osdCPU)
-  add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED)
-  set_target_properties(OpenSubdiv::osdCPU PROPERTIES
+if(OpenSubdiv_FOUND AND NOT TARGET sweepface_osd::osdCPU)
+  add_library(sweepface_osd::osdCPU UNKNOWN IMPORTED)
+  set_target_properties(sweepface_osd::osdCPU PROPERTIES
     IMPORTED_LOCATION ${OpenSubdiv_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${OpenSubdiv_INCLUDE_DIR})
 endif()

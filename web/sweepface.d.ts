@@ -64,15 +64,15 @@ export interface Look {
 }
 
 /** How the eyes stand. */
+export interface Pose {
+  leftEye?: Look | undefined;
+  rightEye?: Look | undefined;
+}
+
 /** A pose to be read: `look` sets another. */
 export interface ReadonlyPose {
   readonly leftEye?: Readonly<NonNullable<Pose['leftEye']>>;
   readonly rightEye?: Readonly<NonNullable<Pose['rightEye']>>;
-}
-
-export interface Pose {
-  leftEye?: Look | undefined;
-  rightEye?: Look | undefined;
 }
 
 /** Files that are not packed, `edgeLength`, `error`, `vertices`, `arcs`, `combine`, `eyes` and `regions` load
@@ -120,7 +120,7 @@ export class Sweepface {
   clone(): Sweepface;
 
   /** The expressions. */
-  readonly names: readonly string[];
+  readonly names: string[];
   /** The level that was asked for; 0 if a budget was. */
   readonly lod: number;
   /** How far any source vertex may be off in any expression, in model units, not counting what evaluation adds. */
@@ -142,7 +142,7 @@ export class Sweepface {
   readonly regions: string[];
   /** The current weights; of several regions, those of the first. */
   readonly weights: Readonly<Weights>;
-  weightsIn(region: string): Weights;
+  weightsIn(region: string): Readonly<Weights>;
   /** A copy of `weights` as numbers in the order of `names`: faster if used every frame. */
   readonly weightValues: Float64Array;
   /** Sets the named weights at once, everywhere or in one region; the others stay. */

@@ -13,12 +13,12 @@ export class SweepfaceMesh extends Mesh {
   constructor(name: string, scene: Scene, face: Sweepface, material?: Material);
   /** For reading: what is set there does not show. */
   readonly face: Sweepface;
-  readonly names: readonly string[];
+  readonly names: string[];
   readonly eyeCount: number;
   readonly regions: string[];
   /** The current weights, and in `pose` the eyes. */
   readonly weights: Readonly<Weights>;
-  weightsIn(region: string): Weights;
+  weightsIn(region: string): Readonly<Weights>;
   /** Whether time passes with the frames of the scene: true at first. Set it to false where something else advances the
    * face, such as a TimelinePlayer. */
   advancesWithScene: boolean;

@@ -97,7 +97,7 @@ export class SweepfaceMesh extends Mesh {
     scene?.addPendingData(usual);  // its whenReadyAsync() waits
     try {
       const face = await Sweepface.load(isUrl ? await download(source) : source, usual);
-      return this.#from(face, isUrl ? nameIn(source) : 'face', scene);
+      return SweepfaceMesh.#from.call(this, face, isUrl ? nameIn(source) : 'face', scene);
     } finally {
       scene?.removePendingData(usual);
     }
@@ -156,7 +156,8 @@ export class SweepfaceMesh extends Mesh {
   /** Gives the mesh and its parts the box of all vertices: refreshBoundingInfo() takes longer than the evaluation. */
   #bound() {
     const ends = boxOf(this.#vectors[0].values).map((place) => Vector3.FromArray(place)), world = this.getWorldMatrix();
-    for (const part of [this, ...this.subMeshes ?? []]) part.getBoundingInfo().reConstruct(...ends, world);
+    for (const info of [this, ...this.subMeshes ?? []].map((part) => part.getBoundingInfo()))
+      if (!info.isLocked) info.reConstruct(...ends, world);
   }
 
   #makeMaterial() {

@@ -9,7 +9,7 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   protected constructor(face: Sweepface, geometry: BufferGeometry, materials?: Materials);
   /** For reading: what is set there does not show. */
   readonly face: Sweepface;
-  readonly names: readonly string[];
+  readonly names: string[];
   readonly eyeCount: number;
   readonly regions: string[];
   /** The current weights, and in `pose` the eyes. */
@@ -19,7 +19,7 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
    * nothing. */
   morphTargetInfluences: number[];
   morphTargetDictionary: Record<string, number>;
-  weightsIn(region: string): Weights;
+  weightsIn(region: string): Readonly<Weights>;
   readonly pose: ReadonlyPose | null;
   /** Turns the eyes; null: by the weights of eyeLook targets. */
   look(pose: Pose | null): void;

@@ -109,10 +109,6 @@ export function geometryOf(face, changing, fixed = {}) {
 export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
 export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing'), changes = Symbol('changes');
 
-/** How many meshes were made with each material: clones share theirs, and the last of them disposes of it. */
-const users = new WeakMap();
-const count = (material, by) => users.set(material, (users.get(material) ?? 0) + by);
-
 /**
  * A face in a scene. Weights can be set at any time; `update` brings them to the screen. They are also written to
  * `morphTargetInfluences` and read back from there, so that whatever moves morph targets moves a face.
@@ -123,15 +119,15 @@ export class FaceMesh extends Mesh {
   #isGone = false;
   #told = [];  // the influences as they were last written
   #changes = 0;  // how often weights or eyes were set
-  #made;  // the materials that it was made with
+  #group = new Set();  // of itself and its clones, which share materials: WeakRefs
+  #self = new WeakRef(this);
   #positions;
   #pose = {};  // a new object whenever a new pose is shown
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
     this.face = face;
-    this.#made = new Set([materials].flat());
-    for (const material of this.#made) count(material, 1);
+    this.#group.add(this.#self);
     this.#moving = face.advance(0);
     this.morphTargetDictionary = Object.fromEntries(face.names.map((name, k) => [name, k]));
     this.morphTargetInfluences = face.names.map(() => 0);
@@ -274,6 +270,7 @@ export class FaceMesh extends Mesh {
     const twin = new this.constructor(face, filled).copy(this, recursive);
     if (lacks > 0) twin.material = materials;
     twin[share](this);
+    twin.#group = this.#group.add(twin.#self);
     twin.traverse((part) => {
       if (part.geometry === this.geometry) part.geometry = twin.geometry;
     });
@@ -293,11 +290,11 @@ export class FaceMesh extends Mesh {
   }
 
   dispose() {
-    if (!this.#isGone) for (const material of this.#made) count(material, -1);
     this.#isGone = true;
+    this.#group.delete(this.#self);
     this.geometry.dispose();
-    for (const material of new Set([...this.#made, ...[this.material].flat()]))
-      if (material && !(users.get(material) > 0)) material.dispose();
+    const shown = new Set([...this.#group].flatMap((other) => other.deref()?.material ?? []));
+    for (const material of [this.material].flat()) if (!shown.has(material)) material?.dispose();
     this.face.dispose();
   }
 }

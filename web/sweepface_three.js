@@ -91,6 +91,7 @@ export class SweepfaceLoader extends Loader {
     this.#downloads.add(loader);
     manager.itemStart(url);  // until the mesh is made; the file is an item of the FileLoader's own
     try {
+      new Request(manager.resolveURL(this.path + url));  // a FileLoader would wait for what is no URL the second time
       loader.load(url, (bytes) => {
         this.#downloads.delete(loader);
         parse(bytes);

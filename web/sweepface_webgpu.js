@@ -1,6 +1,6 @@
 // .sweep faces evaluated in a node shader, for three.js's WebGPURenderer: what sweepface/gpu is for WebGLRenderer
 // (docs/evaluation.md), in the shading language that compiles to WGSL with WebGPU and to GLSL without.
-import {DataTexture, IntType, RGIntegerFormat} from 'three';
+import {DataTexture, IntType, REVISION, RGIntegerFormat} from 'three';
 import {
   Fn, Loop, attribute, bitcast, cross, float, instancedMesh, int, ivec2, materialReference, normalLocal,
   positionGeometry, positionLocal, positionPrevious, texture, uniform, vec3, vec4
@@ -61,7 +61,8 @@ const evaluated = (next) => Fn(({material, object, renderer}) => {
   positionLocal.assign(positionGeometry.add(moved.mul(scale(place))));
   normalLocal.assign(unit(cross(row('sweepAlong', along), row('sweepAcross', across))));
   if (material.displacementMap) positionLocal.addAssign(displacement());
-  if (object.isInstancedMesh) instancedMesh(object).toStack();  // once more: it has placed the neutral
+  // Once more, as it has placed the neutral; before 0.185 it comes after this.
+  if (object.isInstancedMesh && Number.parseInt(REVISION) > 184) instancedMesh(object).toStack();
   // Otherwise what the expression has moved would seem to move every frame.
   if (renderer.getMRT()?.has('velocity')) positionPrevious.assign(positionLocal);
   return next ?? positionLocal;

@@ -58,7 +58,7 @@ struct NormalTry {
 /// figure in a refusal can be reached by asking for it.
 std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) {
   const double limit = options.normalLimit > 0 ? options.normalLimit : usual;
-  if (!(options.normalTolerance > 0)) return {{limit, false}, {180, false}};
+  if (!options.pack || !(options.normalTolerance > 0)) return {{limit, false}, {180, false}};
   if (options.normalLimit > 0) return {{limit, true}, {limit, false}};
   std::vector<NormalTry> tries{{usual, true}, {180, true}};
   const double tight = std::max(kLimitForTolerance * options.normalTolerance, kTightest);
@@ -100,7 +100,7 @@ class Converter {
     for (const NormalTry& next : normalTries(options_, usualLimit_)) {
       auto conversion = convertWithin(*mesh, next);
       if (!conversion) {
-        if (progress_.cancelled()) return conversion;
+        if (progress_.cancelled() || !(limitsNormals || isBeyond_)) return conversion;
         failure = conversion.error();
       } else if (!limitsNormals || normalRms_ <= options_.normalTolerance) {
         progress_.end();
@@ -149,7 +149,7 @@ class Converter {
     for (Index v = 0; v < mesh.vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
     if (!limits.smooth) data.slopeWeight = 0.1;
-    auto fitted = fitSurface(layout, data, limits, options_.chooseShapes, progress_);
+    auto fitted = fitSurface(layout, data, limits, options_.chooseShapes, progress_, isBeyond_);
     if (!fitted) return std::unexpected(fitted.error());
     const auto stored = fitted->solution.rows();
     if (static_cast<std::size_t>(stored) * data.poses > codec::kMostVectors)
@@ -207,6 +207,7 @@ class Converter {
   double tolerance_ = 0, usualLimit_ = 0;
   double aim_ = 0;                             // the tolerance less the rounding of merged vertices
   std::map<double, Result<Conversion>> fits_;  // by their limits on normals
+  bool isBeyond_ = false;                      // whether the last fit could not get within it
   double normalRms_ = 0;
   double nearest_ = std::numeric_limits<double>::infinity();  // of the attempts not guided
 };

@@ -146,8 +146,8 @@ std::string doubtBetweenVertices(const PolygonMesh& neutral, double tolerance) {
   return fmt::format(
       "The mesh is coarse for its shape, as if it were made to be subdivided: half of its faces "
       "lean {:.2g} degrees or more from the normals of their vertices. A surface within {:.3g} of "
-      "every vertex may look creased between them. If it is a cage, subdivide it (--subdivide 1); "
-      "otherwise compare pictures, and try a tolerance of {:.3g}.",
+      "every vertex may look creased between them. Give a higher level of --subdivide if it is a "
+      "cage; otherwise compare pictures, and try a tolerance of {:.3g}.",
       coarse.degrees, tolerance, std::ceil(smooth / digit) * digit);
 }
 

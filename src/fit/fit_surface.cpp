@@ -49,7 +49,8 @@ class SurfaceFitter {
         progress_(progress) {}
 
   // Solve, measure, refine.
-  Result<Fitted> run() {
+  Result<Fitted> run(bool& isBeyond) {
+    isBeyond = false;
     ExtraJets extra = slopesWhereUneven();
     double nearest = std::numeric_limits<double>::infinity();
     int smoothing = 0;  // rounds in which the promise held
@@ -69,6 +70,7 @@ class SurfaceFitter {
       if (changed == 0) break;
       if (within && ++smoothing >= kMostForNormals) limits_.angle = 180;
     }
+    isBeyond = true;
     return fail(fmt::format(
         "a tolerance of {:.3g} is out of reach: the surface comes no nearer to all vertices than "
         "{:.3g}; allow a larger one",
@@ -124,8 +126,8 @@ class SurfaceFitter {
 }  // namespace
 
 Result<Fitted> fitSurface(Layout& layout, SourceData& data, const RefineLimits& limits,
-                          bool choosesShapes, ConversionProgress& progress) {
-  return SurfaceFitter(layout, data, limits, choosesShapes, progress).run();
+                          bool choosesShapes, ConversionProgress& progress, bool& isBeyond) {
+  return SurfaceFitter(layout, data, limits, choosesShapes, progress).run(isBeyond);
 }
 
 }  // namespace sweepface

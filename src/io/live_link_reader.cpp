@@ -210,7 +210,7 @@ class LiveLinkReader {
                                        : rest.size();
       const auto part = end == std::string_view::npos ? std::optional<double>{}
                                                       : toNumber<double>(rest.substr(0, end));
-      if (!part || std::signbit(*part) || *part > 1e6)
+      if (!part || !(*part >= 0) || std::signbit(*part) || *part > 1e6)
         return failLine(fmt::format("{} is not a timecode like 12:59:59:23.500", inQuotes(text)));
       parts[k] = *part;
       if (k == 2) dropsFrames = rest[end] == ';';

@@ -51,11 +51,12 @@ class CageMaker {
       for (Index f = 0; f < faces_.faceCount(); ++f)
         for (Index c = faces_.faceStart[f]; c < faces_.faceStart[f + 1]; ++c)
           vertex_[c] = first[faces_.corners[c]] + (repeats_[f] == FaceRepeat::back ? count_ : 0);
-      for (Index f = 0; f < faces_.faceCount(); ++f)
+      for (Index f = 0; f < faces_.faceCount(); ++f) {
+        if (repeats_[f] == FaceRepeat::again || differentCorners(f).size() < 3) continue;
         for (Index c = faces_.faceStart[f]; c < faces_.faceStart[f + 1]; ++c)
-          if (const Index a = vertex_[c], b = vertex_[next(f, c)];
-              a != b && repeats_[f] != FaceRepeat::again)
+          if (const Index a = vertex_[c], b = vertex_[next(f, c)]; a != b)
             sides.emplace_back(a, b, c);
+      }
       auto cut = pairSides(sides, twins);
       for (auto& [a, b] : cut) a %= count_, b %= count_;
       if (cut.empty() || !takeApart(first, cut)) return;

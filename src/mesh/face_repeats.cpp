@@ -15,9 +15,9 @@ std::vector<FaceRepeat> faceRepeats(const Polygons& faces) {
   for (Index f = 0; f < faces.faceCount(); ++f) {
     std::vector<Index> around(faces.corners.begin() + faces.faceStart[f],
                               faces.corners.begin() + faces.faceStart[f + 1]);
-    const bool isNew = known.insert(fromSmallest(around)).second;
-    std::ranges::reverse(around);
-    const bool isBack = known.contains(fromSmallest(around));
+    // Looked up first, as a face that runs to a point and back would be its own back.
+    const bool isBack = known.contains(fromSmallest({around.rbegin(), around.rend()}));
+    const bool isNew = known.insert(fromSmallest(std::move(around))).second;
     repeats.push_back(!isNew ? FaceRepeat::again : isBack ? FaceRepeat::back : FaceRepeat::alone);
   }
   return repeats;

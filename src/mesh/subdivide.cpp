@@ -21,7 +21,9 @@ namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
 constexpr double kMostFaces = 1 << 22;
-constexpr Index kMostAround = 65'535;  // corners of a face or edges of a vertex, for OpenSubdiv
+// Faces around a vertex, which may have twice as many edges, or corners of a face, which becomes
+// such a vertex. OpenSubdiv counts to 65,535.
+constexpr Index kMostAround = 32'767;
 
 /// Refuses what would be too large, or what OpenSubdiv cannot hold.
 Result<void> checkSize(const Cage& cage, int levels) {
@@ -33,7 +35,7 @@ Result<void> checkSize(const Cage& cage, int levels) {
                 static_cast<std::int64_t>(kMostFaces), " are allowed; subdivide it less");
   std::vector<Index> facesAt(cage.vertices.size());
   for (const Index v : cage.corners) ++facesAt[v];
-  if (std::ranges::any_of(facesAt, [](Index n) { return n > kMostAround / 2; }) ||
+  if (std::ranges::any_of(facesAt, [](Index n) { return n > kMostAround; }) ||
       std::ranges::any_of(cage.sizes, [](Index n) { return n > kMostAround; }))
     return fail("too many faces around a vertex, or corners around a face, to be subdivided");
   return {};

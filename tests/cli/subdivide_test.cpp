@@ -78,6 +78,9 @@ TEST_F(Subdivide, TakesAGlbWithoutItsScene) {
   EXPECT_TRUE(fails(convert, "leave it out with --bare"));
   ASSERT_EQ(run(convert + " --bare").code, 0);
   EXPECT_EQ(run("measure out.sweep face.glb --subdivide 1").code, 0);
+  const Outcome r = run(convert + " --strip order");  // which loses the scene anyway
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("is left out with the order"), std::string::npos) << r.err;
 }
 
 }  // namespace

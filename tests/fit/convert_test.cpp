@@ -587,11 +587,14 @@ TEST(ConvertLong, leavesNormalsToThemselvesWhereTheyKeepItFromItsTolerance) {
   rig.targets.push_back(std::move(bent));
   ConvertOptions options;
   options.tolerance = 0.0007;
-  const auto conversion = convert(rig, options);
-  ASSERT_TRUE(conversion) << conversion.error().message;
-  EXPECT_LE(worstDistance(conversion->rig, rig), 0.0007);
-  ASSERT_FALSE(conversion->warnings.empty());
-  EXPECT_NE(conversion->warnings.back().find("--normal-limit 180"), std::string::npos);
+  for (const bool packs : {false, true}) {
+    options.pack = packs;
+    const auto conversion = convert(rig, options);
+    ASSERT_TRUE(conversion) << conversion.error().message;
+    EXPECT_LE(worstDistance(conversion->rig, rig), 0.0007);
+    ASSERT_FALSE(conversion->warnings.empty());
+    EXPECT_NE(conversion->warnings.back().find("--normal-limit 180"), std::string::npos);
+  }
 }
 
 // The large coordinates are single-precision numbers, as those in files often are.

@@ -217,7 +217,8 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,a\n-1,0\n"), "line 2: the time '-1' is below 0");
   expectError(csv("Timecode,a\n1:2:3,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1:2:3:-4,0\n"), "not a timecode");
-  expectError(csv("Timecode,a\n-00:00:01:00,0\n"), "not a timecode");
+  for (const char* wrong : {"-00:00:01:00", "nan:0:0:0", "0:0:-nan:0"})
+    expectError(csv(std::string("Timecode,a\n") + wrong + ",0\n"), "not a timecode");
   expectError(csv("Timecode,a\n10.5,0\n00:00:11:30,0\n"),
               "line 3: the time '00:00:11:30' is of another kind than the ones above");
   expectError(csv("Timecode,a\n12:59:60:1,0\n"), "more than 59 minutes or seconds");

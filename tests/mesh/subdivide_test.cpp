@@ -155,6 +155,15 @@ TEST(Subdivide, KeepsApartWhatMerelyTouches) {
             3 * limitOf(sheet, 1).neutral.positions.size());
 }
 
+TEST(Subdivide, ClosesSeamsAlsoUnderFacesWithoutAnArea) {
+  PolygonMesh seam = cylinder(8, 4, true);
+  const PolygonMesh closed = limitOf(seam, 1).neutral;
+  addFace(seam, {9, 18, 26, 17});  // from one side of the seam to the other
+  const PolygonMesh limit = limitOf(seam, 1).neutral;
+  EXPECT_EQ(limit.positions.size(), closed.positions.size());
+  EXPECT_EQ(quadPlaces(limit), quadPlaces(closed));
+}
+
 // Upper and lower lip touch in the neutral, and a target parts them.
 TEST(Subdivide, KeepsApartWhatATargetParts) {
   PolygonMesh lips = joined(plane(4, 2), plane(4, 2), {0, 0, 0});
@@ -339,6 +348,7 @@ TEST(Subdivide, LeavesOutFacesThatAreThereAgain) {
   const Result<Subdivision> limit = subdivide({twice, {}}, 1);
   ASSERT_TRUE(limit);
   EXPECT_EQ(quadPlaces(limit->rig.neutral), quadPlaces(limitOf(cage, 1).neutral));
+  EXPECT_EQ(limit->rig.neutral.positions.size(), limitOf(cage, 1).neutral.positions.size());
   ASSERT_EQ(limit->warnings.size(), 2u);
   EXPECT_EQ(limit->warnings[0],
             "1 face has fewer than three different corners and no surface to subdivide.");
@@ -397,6 +407,15 @@ TEST(Subdivide, RefusesPolesOfTensOfThousandsOfFaces) {
   EXPECT_EQ(refusal({uvSphere(40'000, 3), {}}),
             "too many faces around a vertex, or corners around a face, to be subdivided");
   EXPECT_EQ(refusal({uvSphere(32'000, 3), {}}), "nothing");
+  PolygonMesh disc;
+  Loop rim;
+  for (Index v = 0; v < 40'000; ++v) {
+    disc.positions.push_back({std::cos(turn(v / 40'000.0)), std::sin(turn(v / 40'000.0)), 0});
+    rim.push_back(v);
+  }
+  addFace(disc, rim);
+  EXPECT_EQ(refusal({disc, {}}),
+            "too many faces around a vertex, or corners around a face, to be subdivided");
 }
 
 }  // namespace

@@ -108,6 +108,11 @@ test('its box and those of its parts contain the face as it stands', options, as
   assert.deepEqual([minimum, maximum], [mesh.getBoundingInfo().minimum, mesh.getBoundingInfo().maximum]);
   assert.ok(Math.abs(boundingBox.centerWorld.x - 100) < 1);
   for (const part of parts) assert.ok(part.boundingBox.minimumWorld.x > 80);
+  mine.reConstruct(minimum.scale(100), maximum.scale(100));
+  mine.isLocked = true;
+  mesh.reset();
+  scene.render();
+  assert.ok(mesh.getBoundingInfo().maximum.x > 100);
 });
 
 test('materials that it made go with the last mesh that shows them', options, async () => {
@@ -242,6 +247,12 @@ test('a face goes if no mesh can be made of it, and leaves none behind', options
   const late = SweepfaceMesh.load(readFileSync(sample), scene);
   scene.dispose();
   await assert.rejects(late, /scene was disposed of while/);
+});
+
+test('a class made of it loads faces, too', options, async () => {
+  const {scene, SweepfaceMesh} = await load();
+  class Mine extends SweepfaceMesh {}
+  assert.ok(await Mine.load(readFileSync(sample), scene) instanceof Mine);
 });
 
 test('a mesh has the name of its file', options, async (context) => {

@@ -514,6 +514,7 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,a\n12:59:60:1,0\n', 'has more than 59 minutes or seconds'],
        ['a.csv', 'Timecode,a\n12:60:59:1,0\n', 'has more than 59 minutes or seconds'],
        ['a.csv', 'Timecode,a\n-00:00:01:00,0\n', '\'-00:00:01:00\' is not a timecode'],
+       ['a.csv', 'Timecode,a\nnan:0:0:0,0\n', '\'nan:0:0:0\' is not a timecode'],
        ['a.csv', 'Timecode,a\n0:0:1:0,0\n2,0\n', 'line 3: the time \'2\' is of another kind than the ones above'],
        ['a.csv', 'Timecode,a\n1e7:0:0:0,0\n', '\'1e7:0:0:0\' is not a timecode'],
        ['a.json', '[{"timestampMs": 5, "categories": []}, {"timestampMs": 5, "categories": []}]',
