@@ -1,4 +1,5 @@
-# The target sweepface_osd::osdCPU, a name that nobody else defines. Debian's package has a config file that names libraries which it lacks.
+# Defines sweepface_osd::osdCPU, a name that nobody else uses. The config file of Debian's package names libraries that
+# it lacks.
 find_path(OpenSubdiv_INCLUDE_DIR opensubdiv/far/primvarRefiner.h)
 find_library(OpenSubdiv_LIBRARY osdCPU)
 mark_as_advanced(OpenSubdiv_INCLUDE_DIR OpenSubdiv_LIBRARY)
