@@ -1,7 +1,7 @@
 // Shared by the meshes of sweepface/gpu and sweepface/webgpu: tables in textures, the attributes that point into them,
 // and materials that follow one face each.
 import {BufferAttribute, DataTexture, NearestFilter, Vector3} from 'three';
-import {FaceMesh, changes, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
+import {FaceMesh, expression, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
 
 /** Texels in a row: texel k of a texture is at (k mod 1024, k / 1024). */
 const WIDTH = 1024;
@@ -193,9 +193,9 @@ export class CardMesh extends FaceMesh {
   /** The attributes of the current pose, evaluated here because the geometry's own hold the neutral. */
   #stand({position, normal}) {
     const names = normal ? 'positions and normals' : 'positions', met = this.#met;
-    if (met.at === this[changes] && met.names === names && met.position.array.length === position.array.length) return met;
+    if (met.at === this[expression] && met.names === names && met.position.array.length === position.array.length) return met;
     const made = () => new BufferAttribute(new Float32Array(position.array.length), 3);
-    this.#met = {at: this[changes], names, position: made(), ...(normal && {normal: made()}), sphere: null};
+    this.#met = {at: this[expression], names, position: made(), ...(normal && {normal: made()}), sphere: null};
     this.face.evaluate(this.#met.position.array, this.#met.normal?.array);
     return this.#met;
   }

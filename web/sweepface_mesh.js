@@ -104,25 +104,24 @@ export function geometryOf(face, changing, fixed = {}) {
  * What each kind of mesh defines for itself, under names that no class derived from it has by chance: `show` brings
  * weights to the screen, `follow` handles other changes, `meet` intersects rays with the face, `share` gives a clone
  * what it need not have twice, `materialsOfClone` makes a clone's materials, and `standing` returns the current
- * positions. `changes` is what tells them whether the expression is another.
+ * positions. `expression` is an object that identifies the current expression.
  */
 export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
-export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing'), changes = Symbol('changes');
+export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing'), expression = Symbol('expression');
 
 /**
  * A face in a scene. Weights can be set at any time; `update` brings them to the screen. They are also written to
  * `morphTargetInfluences` and read back from there, so that whatever moves morph targets moves a face.
  */
 export class FaceMesh extends Mesh {
-  #stale = true;
   #moving;
   #isGone = false;
   #told = [];  // the influences as they were last written
-  #changes = 0;  // how often weights or eyes were set
   #group = new Set();  // of itself and its clones, which share materials: WeakRefs
   #self = new WeakRef(this);
   #positions;
-  #pose = {};  // a new object whenever a new pose is shown
+  #expression = {};  // a new object whenever weights or eyes are set
+  #shown;  // the expression that is on show
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
@@ -142,12 +141,12 @@ export class FaceMesh extends Mesh {
 
   weightsIn(region) { return this.face.weightsIn(region); }
 
-  /** Differs after every change of the expression. */
-  get [changes]() { return this.#changes; }
+  /** An object that identifies the current expression. */
+  get [expression]() { return this.#expression; }
 
   look(pose) {
     this.face.look(pose);
-    this.#change();
+    this.#expression = {};
   }
 
   setWeights(weights, region) {
@@ -192,19 +191,14 @@ export class FaceMesh extends Mesh {
     this.#tellInfluences();
   }
 
-  /** Called when weights have changed: marks the mesh stale, and copies them to the influences, if there are any. */
+  /** Called when weights have changed: copies them to the influences, if there are any. */
   #tellInfluences() {
     const influences = this.morphTargetInfluences ?? [], weights = this.face.weightValues;
     for (let k = 0; k < weights.length; ++k) {
       if (k < influences.length) Reflect.set(influences, k, weights[k]);  // a frozen array stays as it is
       this.#told[k] = influences[k];  // which may be rounded, or missing
     }
-    this.#change();
-  }
-
-  #change() {
-    this.#stale = true;
-    ++this.#changes;
+    this.#expression = {};
   }
 
   /**
@@ -216,12 +210,9 @@ export class FaceMesh extends Mesh {
     this.#takeInfluences();
     if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
     this[follow]();
-    const isNew = this.#stale;
-    if (isNew) {
-      this[show]();
-      this.#pose = {};
-    }
-    this.#stale = false;
+    const isNew = this.#shown !== this.#expression;
+    if (isNew) this[show]();
+    this.#shown = this.#expression;
     this.#movePins();
     return isNew || this.#moving;
   }
@@ -229,7 +220,7 @@ export class FaceMesh extends Mesh {
   /** Adds an object that follows the skin at its point nearest to `point`, and turns with it. */
   pin(point) {
     this.update();
-    const pin = new Pin().fasten(point, this.face.triangles, this[standing](), this.#pose);
+    const pin = new Pin().fasten(point, this.face.triangles, this[standing](), this.#shown);
     this.add(pin);
     return pin;
   }
@@ -237,10 +228,10 @@ export class FaceMesh extends Mesh {
   /** Brings pins to the pose on show, including new ones that have not followed it yet. */
   #movePins() {
     const size = 3 * this.face.vertexCount;
-    const behind = this.children.filter((child) => child instanceof Pin && child.isBehind(size, this.#pose));
+    const behind = this.children.filter((child) => child instanceof Pin && child.isBehind(size, this.#shown));
     if (behind.length === 0) return;
     const positions = this[standing]();
-    for (const pin of behind) pin.follow(positions, this.#pose);
+    for (const pin of behind) pin.follow(positions, this.#shown);
   }
 
   [standing]() {

@@ -52,13 +52,17 @@ struct NormalTry {
   bool isGuided = false;  ///< whether the angle packing aims at follows the tolerance for normals
 };
 
+bool limitsNormals(const ConvertOptions& options) {
+  return options.pack && options.normalTolerance > 0;
+}
+
 /// The attempts in turn, first those that most likely meet the tolerance for normals. A tighter
 /// limit brings normals nearer, but now and then packing does more harm to its fit. If none of
 /// these succeeds, limits follow that do not depend on the tolerance for normals, so that the
 /// figure in a refusal can be reached by asking for it.
 std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) {
   const double limit = options.normalLimit > 0 ? options.normalLimit : usual;
-  if (!options.pack || !(options.normalTolerance > 0)) return {{limit, false}, {180, false}};
+  if (!limitsNormals(options)) return {{limit, false}, {180, false}};
   if (options.normalLimit > 0) return {{limit, true}, {limit, false}};
   std::vector<NormalTry> tries{{usual, true}, {180, true}};
   const double tight = std::max(kLimitForTolerance * options.normalTolerance, kTightest);
@@ -95,16 +99,16 @@ class Converter {
     aim_ = tolerance_ - mesh->rounding;
     std::ranges::move(doubtsAbout(source_, tolerance_), std::back_inserter(mesh->warnings));
     usualLimit_ = usualNormalLimit(tolerance_, size);
-    const bool limitsNormals = options_.pack && options_.normalTolerance > 0;
+    const bool isLimited = limitsNormals(options_);
     std::optional<Error> failure;
     for (const NormalTry& next : normalTries(options_, usualLimit_)) {
       auto conversion = convertWithin(*mesh, next);
       if (!conversion) {
-        if (progress_.cancelled() || !(limitsNormals || isBeyond_)) return conversion;
+        if (progress_.cancelled() || !(isLimited || isBeyond_)) return conversion;
         failure = conversion.error();
-      } else if (!limitsNormals || normalRms_ <= options_.normalTolerance) {
+      } else if (!isLimited || normalRms_ <= options_.normalTolerance) {
         progress_.end();
-        if (failure && !limitsNormals) conversion->warnings.push_back(kWithoutNormals);
+        if (failure && !isLimited) conversion->warnings.push_back(kWithoutNormals);
         return conversion;
       } else if (!next.isGuided) {
         nearest_ = std::min(nearest_, normalRms_);

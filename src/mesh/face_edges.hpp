@@ -1,8 +1,11 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sweepface/mesh.hpp"
+
+#include "mesh/face_repeats.hpp"
 
 namespace sweepface {
 
@@ -15,6 +18,11 @@ struct FaceEdges {
   std::vector<Index> twin;                  ///< [C] or -1
 };
 
-FaceEdges faceEdges(const MeshRig& rig);
+/// With `repeats` [F], the vertices of backs are numbered from V on, and faces that are there
+/// again, or have fewer than three different corners, share no edges.
+FaceEdges faceEdges(const MeshRig& rig, std::span<const FaceRepeat> repeats = {});
+
+/// The corners of a face at another vertex than the one before.
+std::vector<Index> differentCorners(const FaceEdges& edges, const Polygons& polygons, Index face);
 
 }  // namespace sweepface

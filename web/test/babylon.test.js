@@ -3,6 +3,7 @@ import {readFileSync} from 'node:fs';
 import test from 'node:test';
 import {skip as noBrowser, withPage} from './browser.js';
 import {difference, played, sample} from './native.js';
+import {assertTellsWhetherToDraw} from './updates.js';
 
 const core = '@babylonjs/core';
 const {NullEngine} = await import(`${core}/Engines/nullEngine.js`).catch(() => ({}));
@@ -87,14 +88,7 @@ test('in lockstep it moves by the steps of the scene', options, async () => {
 });
 
 test('an update tells whether there is something to draw', options, async () => {
-  const {mesh} = await load();
-  assert.equal(mesh.update(), false);
-  mesh.setWeights({jawOpen: 1});
-  assert.deepEqual([mesh.update(), mesh.update()], [true, false]);
-  mesh.moveTo({jawOpen: 0}, {kind: 'linear-force', seconds: 0.1});
-  assert.deepEqual([0.05, 0, 0.06, 0.01, 0.01].map((seconds) => mesh.update(seconds)), [true, true, true, true, false]);
-  mesh.dispose();
-  assert.equal(mesh.update(), false);
+  assertTellsWhetherToDraw((await load()).mesh);
 });
 
 test('its box and those of its parts contain the face as it stands', options, async () => {

@@ -4,6 +4,7 @@ import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 import {difference, newFolder, played, sample, tool} from './native.js';
+import {assertTellsWhetherToDraw} from './updates.js';
 
 const three = await import('three').catch(() => undefined);
 const options = {skip: three ? false : 'three is not installed; try npm ci'};
@@ -188,14 +189,7 @@ test('an update costs nothing where nothing moves', options, async () => {
 });
 
 test('an update tells whether there is something to draw', options, async () => {
-  const mesh = await load();
-  assert.equal(mesh.update(), false);
-  mesh.setWeights({jawOpen: 1});
-  assert.deepEqual([mesh.update(), mesh.update()], [true, false]);
-  mesh.moveTo({jawOpen: 0}, {kind: 'linear-force', seconds: 0.1});
-  assert.deepEqual([0.05, 0, 0.06, 0.01, 0.01].map((seconds) => mesh.update(seconds)), [true, true, true, true, false]);
-  mesh.dispose();
-  assert.equal(mesh.update(), false);
+  assertTellsWhetherToDraw(await load());
 });
 
 test('vertices are moved by the mesh or in a clone of the geometry, as they follow the face', options, async () => {
