@@ -220,6 +220,13 @@ def read_lines(path):
         return file.read().splitlines()
 
 
+def without_repeats(corners):
+    """The corners of a face without those at the vertex of the one before: Blender crashes when it edits a face that
+    has a vertex twice. None if there are fewer than three then, or the face comes back to a vertex."""
+    kept = [corner for k, corner in enumerate(corners) if corner[0] != corners[k - 1][0]]
+    return kept if 3 <= len(kept) == len({corner[0] for corner in kept}) else []
+
+
 def new_mesh(name, lines):
     """A mesh from an OBJ that the tool wrote, with its polygons, texture coordinates and materials."""
     mesh = bpy.data.meshes.new(name)
@@ -229,7 +236,9 @@ def new_mesh(name, lines):
         if line.startswith("usemtl "):
             current = slots.setdefault(line[len("usemtl "):], len(slots))
         elif line.startswith("f "):
-            corners = [corner.split("/") for corner in line.split()[1:]]
+            corners = without_repeats([corner.split("/") for corner in line.split()[1:]])
+            if not corners:
+                continue
             faces.append([int(corner[0]) - 1 for corner in corners])
             coordinates += [int(corner[1] or 0) - 1 if len(corner) > 1 else -1 for corner in corners]
             materials.append(current)

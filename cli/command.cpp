@@ -297,12 +297,6 @@ Result<Vec3> pointGiven(std::string_view option, std::string_view text) {
   return fail(fmt::format("{} is a point like 0,1.5,-2, not '{}'.", option, text));
 }
 
-std::vector<std::string> targetNames(const Rig& rig) {
-  std::vector<std::string> names;
-  for (const Target& target : rig.targets) names.push_back(target.name);
-  return names;
-}
-
 namespace {
 
 /// Whether a part between commas consists only of digits: the 5 of "jawOpen=0,5".
@@ -314,7 +308,7 @@ bool hasDecimalComma(std::string_view text) {
 
 /// A suggestion for the first name that is no target.
 std::string hintAtName(std::string_view text, const Rig& rig) {
-  const std::vector<std::string> names = targetNames(rig);
+  const std::vector<std::string> names = rig.targetNames();
   for (const auto part : text | std::views::split(',')) {
     std::string_view name(part.begin(), part.end());
     name = name.substr(0, name.rfind('='));

@@ -114,8 +114,6 @@ std::optional<Vec3> parsePoint(std::string_view text);
 /// The point that an option gives; its coordinates must fit in a float.
 Result<Vec3> pointGiven(std::string_view option, std::string_view text);
 
-std::vector<std::string> targetNames(const Rig& rig);
-
 /// The weights that an option gives; an error begins with the option's name.
 Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig);
 

@@ -63,7 +63,7 @@ void warnOfSpellings(const std::vector<std::string>& names,
 
 /// The followers that the names of the targets define.
 std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told) {
-  const std::vector<std::string> names = targetNames(rig);
+  const std::vector<std::string> names = rig.targetNames();
   std::vector<Follower> followers = Followers::named(names);
   if (followers.empty())
     printWarning("No target is named after others, so --combine changes nothing.");
@@ -85,14 +85,19 @@ bool isStill(const Rig& rig, const Target& target) {
 
 }  // namespace
 
+Result<Limits> limitsGiven(const FollowingArguments& a, const Rig& rig) {
+  if (a.limits.empty()) return Limits();
+  auto limits = Limits::parse(rig, a.limits);
+  if (!limits) return fail("--limits: " + limits.error().message);
+  return limits;
+}
+
 Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vector<Weights>& told) {
   Following following;
   following.count = rig.targets.size();
-  if (!a.limits.empty()) {
-    auto limits = Limits::parse(rig, a.limits);
-    if (!limits) return fail("--limits: " + limits.error().message);
-    following.limits = std::move(*limits);
-  }
+  auto limits = limitsGiven(a, rig);
+  if (!limits) return std::unexpected(limits.error());
+  following.limits = std::move(*limits);
   std::vector<Follower> followers;
   if (a.combine) followers = combined(rig, told);
   // Lids turn about the eyeballs, so turns are found while the targets still move the eyeballs.

@@ -33,6 +33,8 @@ struct Following {
 inline constexpr const char* kNoTurns =
     "No target turns about anything, so --arcs changes nothing.";
 
+Result<Limits> limitsGiven(const FollowingArguments& a, const Rig& rig);
+
 /// Sets up what was asked for and adds arcs and turning eyes to the targets of the rig. Warns of
 /// weights in `told`, each [targets], that were set for targets that follow others.
 Result<Following> follow(const FollowingArguments& a, Rig& rig,

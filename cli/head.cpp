@@ -27,6 +27,7 @@ void addHead(CLI::App& app, HeadArguments& a) {
   app.add_option("--pivot", a.pivot,
                  "What the head turns about, as X,Y,Z; the middle of the model if not given")
       ->needs(head)
+      ->check(notEmpty())
       ->type_name("X,Y,Z");
 }
 

@@ -28,6 +28,7 @@ void addOptions(CLI::App& app, InfoArguments& a) {
                  "List the five patches, curves and nodes of the neutral that come nearest to a "
                  "point")
       ->excludes("--list")
+      ->check(notEmpty())
       ->type_name("X,Y,Z");
   addQuiet(app, a.quiet);
   addJson(app, a.json);
@@ -59,7 +60,7 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
       {"shapedRibbons",
        std::ranges::count_if(w.ribbons, [](const Shape& s) { return s != Shape{}; })},
       {"tolerance", rig.tolerance},
-      {"targets", targetNames(rig)},
+      {"targets", rig.targetNames()},
       {"bytes", bytes},
       {"bareBytes", bareBytes(rig)},
       {"parts", nlohmann::ordered_json::object()}};
@@ -82,7 +83,7 @@ void printText(const nlohmann::ordered_json& r) {
              number("shapedRibbons"));
   fmt::print("  tolerance  {:.6g}\n", r["tolerance"].get<double>());
   fmt::print("  targets    {}{}{}\n", names.size(), names.empty() ? "" : ": ",
-             fmt::join(names, ", "));
+             printable(fmt::format("{}", fmt::join(names, ", "))));
   fmt::print("  bytes      {}", number("bytes"));
   if (number("bareBytes") < number("bytes"))
     fmt::print(", {} without the source's order{} and texture coordinates", number("bareBytes"),
@@ -155,7 +156,9 @@ nlohmann::ordered_json nearest(const Rig& rig, const Vec3& point) {
 }
 
 void printList(const nlohmann::ordered_json& list) {
-  const auto text = [](const nlohmann::ordered_json& value) { return value.get<std::string>(); };
+  const auto text = [](const nlohmann::ordered_json& value) {
+    return printable(value.get<std::string>());
+  };
   const auto away = [](const nlohmann::ordered_json& thing) -> std::string {
     if (!thing.contains("distance")) return "";
     return fmt::format(", {:.4g} away at {:.4g}", thing["distance"].get<double>(),
@@ -167,7 +170,8 @@ void printList(const nlohmann::ordered_json& list) {
   for (const auto& p : list["patches"]) {
     fmt::print("  patch {}:", text(p["name"]));
     for (const auto& side : p["sides"])
-      fmt::print(" {}", fmt::join(side.get<std::vector<std::string>>(), " + "));
+      fmt::print(" {}", printable(fmt::format(
+                            "{}", fmt::join(side.get<std::vector<std::string>>(), " + "))));
     fmt::print("{}\n", away(p));
   }
   for (const auto& c : list["curves"])

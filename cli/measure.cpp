@@ -55,8 +55,9 @@ void printRow(std::string_view name, const PoseErrors& e, std::size_t width) {
   fmt::print(
       "{:<{}}  {:>9.3g} {:>9.3g} {:>9.3g}  {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f}  {:>9.3g} "
       "{:>9.3g} {:>6}\n",
-      name, width, e.distance.max, e.distance.p999, e.distance.rms, e.angle.rms, e.angle.p99,
-      e.angle.p999, e.angle.max, e.shadingRms, e.facetDistance, e.facetExcess, e.folds);
+      printable(name), width, e.distance.max, e.distance.p999, e.distance.rms, e.angle.rms,
+      e.angle.p99, e.angle.p999, e.angle.max, e.shadingRms, e.facetDistance, e.facetExcess,
+      e.folds);
 }
 
 void printText(const Measurement& m) {

@@ -10,11 +10,8 @@
 
 namespace sweepface::cli {
 
-namespace {
-
-/// Replaces control characters, so that those in names do not reach the terminal.
-std::string printable(std::string_view sentence) {
-  std::string text(sentence);
+std::string printable(std::string_view given) {
+  std::string text(given);
   for (std::size_t k = 0; k < text.size(); ++k) {
     const auto code = static_cast<unsigned char>(text[k]);
     const bool isWide = code == 0xC2 && k + 1 < text.size() && (text[k + 1] & 0xE0) == 0x80;
@@ -22,6 +19,8 @@ std::string printable(std::string_view sentence) {
   }
   return text;
 }
+
+namespace {
 
 /// Ignores failure: there is nowhere else to report it.
 void tell(const std::string& text) { std::fputs(text.c_str(), stderr); }

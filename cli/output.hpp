@@ -8,7 +8,10 @@
 
 namespace sweepface::cli {
 
-/// Prints "sweepface: sentence" to the error stream, with '?' for control characters.
+/// Replaces control characters by '?', so that those in names do not reach the terminal.
+std::string printable(std::string_view text);
+
+/// Prints "sweepface: sentence" to the error stream, made printable.
 void printError(std::string_view sentence);
 void printWarning(std::string_view sentence);
 /// Prints JSON to the output stream; bytes in names that are not UTF-8 are replaced.

@@ -254,7 +254,7 @@ Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a,
 
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times) {
   Clip clip;
-  clip.names = targetNames(rig);
+  clip.names = rig.targetNames();
   clip.times = std::move(times);
   clip.weights.resize(clip.times.size() * clip.names.size());
   for (std::size_t f = 0; f < clip.times.size(); ++f)

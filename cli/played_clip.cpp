@@ -91,7 +91,7 @@ std::string firstOf(std::span<const std::string> names) {
 
 Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std::string& text,
                                         const Rig& rig, std::span<const Region> regions) {
-  const std::vector<std::string> targets = targetNames(rig);
+  const std::vector<std::string> targets = rig.targetNames();
   Result<ReadClip> read = readClip(a, text, targets, regions);
   if (!read) return std::unexpected(read.error());
   RegionalClips* const clips = &read->clips;

@@ -106,7 +106,13 @@ Result<int> runRender(const RenderArguments& a) {
                   from = weightsGiven("--from", a.from, *rig);
   if (!weights || !from) return std::unexpected((weights ? from : weights).error());
   std::vector<Vec3> straight;
-  if (isHeat(*style) && a.compare.empty()) straight = sourceVertices(*rig, *weights);
+  if (isHeat(*style) && a.compare.empty()) {
+    const Result<Limits> limits = limitsGiven(a.following, *rig);
+    if (!limits) return std::unexpected(limits.error());
+    Weights limited = *weights;
+    limits->apply(limited);
+    straight = sourceVertices(*rig, limited);
+  }
   const Result<Following> following = follow(a.following, *rig, {*weights, *from});
   if (!following) return std::unexpected(following.error());
   for (Weights* w : {&*weights, &*from}) w->resize(rig->targets.size());

@@ -1,6 +1,7 @@
 #include "sweepface/report.hpp"
 
 #include <fmt/format.h>
+#include <optional>
 
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
@@ -14,7 +15,8 @@ namespace sweepface::cli {
 namespace {
 
 struct ReportArguments {
-  std::string face, output, weights, gltfpack;
+  std::string face, output, gltfpack;
+  std::optional<std::string> weights;
   MeshArguments meshes;
   std::vector<std::string> regions;
   std::vector<double> tolerances;
@@ -69,8 +71,8 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
   ReportOptions options;
   options.name = utf8Path(a.face).filename().string();
   options.bytes = bytes;
-  if (!a.weights.empty()) {
-    const Result<Weights> weights = weightsGiven("--weights", a.weights, rig);
+  if (a.weights) {
+    const Result<Weights> weights = weightsGiven("--weights", *a.weights, rig);
     if (!weights) return std::unexpected(weights.error());
     options.expression = *weights;
   }

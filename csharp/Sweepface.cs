@@ -592,7 +592,7 @@ namespace Sweepface
 
         string[] Strings(Func<Handle, uint, IntPtr> at)
         {
-            var texts = new System.Collections.Generic.List<string>();
+            var texts = new List<string>();
             for (string text; (text = Native.String(at(handle, (uint)texts.Count))) != null;) texts.Add(text);
             GC.KeepAlive(this);
             return texts.ToArray();

@@ -41,11 +41,15 @@ Result<Clip> parsedClip(const std::filesystem::path& path, const std::string& te
   return clip;
 }
 
-Clip readClip(const std::filesystem::path& path, double framesPerSecond,
-              const std::string& animation) {
+void checkRate(double framesPerSecond) {
   if (!(framesPerSecond >= 0 && framesPerSecond <= 1000))
     throw Failure(
         fmt::format("frames_per_second must be between 0 and 1000, not {}.", framesPerSecond));
+}
+
+Clip readClip(const std::filesystem::path& path, double framesPerSecond,
+              const std::string& animation) {
+  checkRate(framesPerSecond);
   auto clip = valueOf(parsedClip(path, valueOf(readFile(path)), framesPerSecond, animation));
   warn(clip.warnings);
   return clip;
@@ -91,7 +95,7 @@ Clip withNames(Clip clip, const py::object& names, const Rig& rig) {
     map.drives.emplace_back(textFrom(name, "A name"),
                             drivesFrom(py::reinterpret_borrow<py::object>(driven)));
   clip.warnings.clear();
-  Clip other = valueOf(renamed(std::move(clip), map, targetNamesOf(rig)));
+  Clip other = valueOf(renamed(std::move(clip), map, rig.targetNames()));
   warn(other.warnings);
   return other;
 }
@@ -101,7 +105,7 @@ Clip withNames(Clip clip, const py::object& names, const Rig& rig) {
 // ---- Weights ----
 
 ClipMatch matchWith(const Clip& clip, const Rig& rig, double missed) {
-  const std::vector<std::string> targets = targetNamesOf(rig);
+  const std::vector<std::string> targets = rig.targetNames();
   ClipMatch match = matchClip(clip, targets);
   if (!movesAnything(clip, match))
     throw Failure(
@@ -123,12 +127,12 @@ py::array_t<double> weightsOver(const Clip& clip, const Rig& rig, const py::obje
 }
 
 py::dict matchOf(const Clip& clip, const Rig& rig) {
-  const ClipMatch match = matchClip(clip, targetNamesOf(rig));
+  const ClipMatch match = matchClip(clip, rig.targetNames());
   py::dict driven;
   for (std::size_t k = 0; k < clip.names.size(); ++k) {
     py::list names;
     for (const Index target : match.targets[k]) names.append(rig.targets[target].name);
-    driven[py::str(clip.names[k])] = names;
+    driven[textOf(clip.names[k])] = names;
   }
   return driven;
 }
@@ -150,7 +154,7 @@ py::dict keysOf(const Clip& clip, double tolerance) {
 
 Clip clipOfTargets(const Rig& rig, const Clip& clip) {
   const ClipMatch match = matchWith(clip, rig);
-  Clip spread{targetNamesOf(rig), clip.times, {}, {}, clip.title};
+  Clip spread{rig.targetNames(), clip.times, {}, {}, clip.title};
   std::vector<double> row(rig.targets.size());
   for (const double time : clip.times) {
     match.spread(clip, time - clip.times.front(), row);
@@ -165,7 +169,13 @@ void addClip(py::module_& m) {
   py::class_<Clip>(m, "Clip", "Weights over time, as a tracker or an animator gives them.")
       .def(py::init(&clipFrom), "names"_a, "times"_a, "weights"_a,
            "names [N], times [F] in seconds that increase, weights [F, N].")
-      .def_readonly("names", &Clip::names)
+      .def_property_readonly("names",
+                             [](const Clip& clip) {
+                               py::list names;
+                               for (const std::string& name : clip.names)
+                                 names.append(textOf(name));
+                               return names;
+                             })
       .def_readonly("title", &Clip::title, "Of the animation in its file, or empty.")
       .def_property_readonly(
           "times", [](const Clip& clip) { return arrayOf(clip.times); },
@@ -190,6 +200,7 @@ void addClip(py::module_& m) {
           "save_csv",
           [](const Clip& clip, const std::filesystem::path& path, double framesPerSecond) {
             checkKind(path, ".csv");
+            checkRate(framesPerSecond);
             valueOf(writeFile(path, valueOf(formatLiveLinkCsv(clip, framesPerSecond))));
           },
           "path"_a, "frames_per_second"_a = 60,

@@ -14,7 +14,7 @@ Following::Following(std::shared_ptr<const Rig> rig, const FollowingOptions& opt
   const auto extended = std::make_shared<Rig>(*rig_);
   std::vector<Follower> followers;
   if (options.combine) {
-    followers = Followers::named(targetNamesOf(*rig_));
+    followers = Followers::named(rig_->targetNames());
     if (followers.empty()) throw Failure("No target is named after others; leave combine out.");
   }
   if (options.arcs) {

@@ -61,9 +61,16 @@ char* Output::end() const {
 bool Output::crosses(const Output& other) const {
   if (!data_ || !other.data_ || data_ >= other.end() || other.data_ >= end()) return false;
   if (stride_ != other.stride_ || frameStride_ != other.frameStride_) return true;
-  const auto row = static_cast<std::ptrdiff_t>(stride_);
-  const std::ptrdiff_t apart = ((other.data_ - data_) % row + row) % row;
-  return apart < kVector || row - apart < kVector;
+  const auto frames = static_cast<std::ptrdiff_t>(frames_),
+             rows = static_cast<std::ptrdiff_t>(vertices_);
+  const auto row = static_cast<std::ptrdiff_t>(stride_),
+             frame = static_cast<std::ptrdiff_t>(frameStride_);
+  for (std::ptrdiff_t f = 1 - frames; f < frames; ++f) {
+    const std::ptrdiff_t apart = other.data_ - data_ - f * frame;
+    for (const std::ptrdiff_t v : {apart / row, apart / row + (apart < 0 ? -1 : 1)})
+      if (std::abs(v) < rows && std::abs(apart - v * row) < kVector) return true;
+  }
+  return false;
 }
 
 }  // namespace sweepface::python

@@ -266,7 +266,7 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
 
 void addContents(py::class_<Rig, SharedRig>& rig) {
   using namespace py::literals;
-  rig.def_property_readonly("target_names", &targetNamesOf, "[K]")
+  rig.def_property_readonly("target_names", &Rig::targetNames, "[K]")
       .def(
           "target",
           [](const Rig& r, const std::string& name) { return valueOf(findTarget(r, name)); },

@@ -23,6 +23,12 @@ py::str textOf(std::string_view text) {
   return py::reinterpret_steal<py::str>(decoded);
 }
 
+std::string sentenceOf(std::string message) {
+  if (message.empty() || message.ends_with('.') || message.ends_with('?')) return message;
+  if (message[0] >= 'a' && message[0] <= 'z') message[0] += 'A' - 'a';
+  return message + '.';
+}
+
 Released::~Released() {
   try {
     PyEval_RestoreThread(state_);
@@ -124,12 +130,6 @@ Weights weightsFrom(const Rig& rig, const py::object& given) {
   }
   checkWeights(weights);
   return weights;
-}
-
-std::vector<std::string> targetNamesOf(const Rig& rig) {
-  std::vector<std::string> names;
-  for (const Target& target : rig.targets) names.push_back(target.name);
-  return names;
 }
 
 }  // namespace sweepface::python

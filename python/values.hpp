@@ -47,10 +47,13 @@ auto released(const Work& work) {
   return work();
 }
 
+/// A message as a sentence: some are made to stand behind the name of a file.
+std::string sentenceOf(std::string message);
+
 /// The value of a result; its error becomes an exception, as Python expects.
 template <typename T>
 T valueOf(Result<T> result) {
-  if (!result) throw Failure(result.error().message);
+  if (!result) throw Failure(sentenceOf(std::move(result.error().message)));
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
@@ -135,7 +138,5 @@ py::array_t<double> rowsAt(const Doubles& places, std::size_t columns, const Wri
 Weights weightsFrom(const Rig& rig, const py::object& given);
 /// Refuses weights that are not finite or too large to be meant.
 void checkWeights(std::span<const double> weights);
-
-std::vector<std::string> targetNamesOf(const Rig& rig);
 
 }  // namespace sweepface::python

@@ -258,4 +258,4 @@ const wanted = new URLSearchParams(location.search).get('face') || null, start =
 await show(download(start, wanted !== null), start.split('/').pop());
 
 /** For the console. */
-globalThis.sweepface = {get mesh() { return mesh; }, get loading() { return loading; }, show};
+globalThis.sweepface = {get mesh() { return mesh; }, show};

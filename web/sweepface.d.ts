@@ -182,3 +182,7 @@ export class Sweepface {
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
   dispose(): void;
 }
+
+/** What a mesh does with its face. */
+export type Moved = Pick<Sweepface, 'names' | 'eyeCount' | 'regions' | 'weights' | 'weightsIn' | 'pose' | 'look' | 'setWeights' |
+  'reset' | 'moveTo' | 'push' | 'advance' | 'prepare'>;

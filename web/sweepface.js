@@ -1,7 +1,7 @@
 // Plays .sweep faces in browsers and in Node.
-import {DRIVE_SIZE, secondsOf, writeDrive} from './sweepface_drives.js';
+import {DRIVE_SIZE, writeDrive} from './sweepface_drives.js';
 import {open, Shared} from './sweepface_file.js';
-import {isFloats, kindOf, known, MOST, overlap, passed, told} from './sweepface_values.js';
+import {isFloats, isGiven, kindOf, known, MOST, overlap, told} from './sweepface_values.js';
 import {MemoryError} from './sweepface_wasm.js';
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
@@ -26,7 +26,6 @@ export class Sweepface {
   #shared;
   #own = {face: 0, motion: 0, memory: null};  // addresses in the module's memory
   #pose = null;
-  #drives = new Map();  // by the weight's place among all: its goal, and seconds left before it can rest there
 
   /** Use Sweepface.load. */
   constructor(shared) {
@@ -94,8 +93,6 @@ export class Sweepface {
     for (const r of places)
       for (const [target, weight] of named) all[count * r + target] = weight;
     this.#takeWeights();
-    for (const r of places)
-      for (const [target] of named) this.#drives.delete(count * r + target);
     if (!this.#own.motion) return;
     const cut = shared.regions ? 0 : this.#drive('cut');
     for (const r of places)
@@ -141,7 +138,7 @@ export class Sweepface {
         if (!Number.isFinite(angle)) throw new TypeError(`look's ${name} takes finite numbers, not ${told(angle)}.`);
       return [yaw, pitch, 0];
     };
-    if (pose === null || pose === undefined) {
+    if (!isGiven(pose)) {
       runtime.check(runtime.wasm.sweepface_face_look(this.#own.face, 0));
       this.#pose = null;
       return;
@@ -158,7 +155,7 @@ export class Sweepface {
   evaluate(positions, normals = null) {
     const {runtime, vertexCount} = this.#open(), memory = this.#own.memory;
     const count = 3 * vertexCount;
-    for (const out of [positions ?? null, normals ?? null].filter((out) => out !== null)) {
+    for (const out of [positions, normals].filter(isGiven)) {
       if (!isFloats(out))
         throw new TypeError(`Positions and normals are written to a Float32Array, a Float64Array or null, not to ${kindOf(out)}.`);
       if (out.length < count)
@@ -217,12 +214,9 @@ export class Sweepface {
     const shared = this.#open(), {runtime} = shared, {wasm} = runtime;
     const all = this.#resolve(goals), places = shared.places(region);
     const at = this.#drive(drive, places), motion = this.#moving();  // all is checked before any sets out
-    for (const [target, goal] of all) {
+    for (const [target, goal] of all)
       runtime.check(region === undefined ? wasm.sweepface_motion_move_to(motion, target, goal, at)
                                          : wasm.sweepface_motion_move_in(motion, places[0], target, goal, at));
-      for (const r of places)
-        this.#drives.set(shared.names.length * r + target, {goal, left: secondsOf(runtime, at, shared.regions?.[r])});
-    }
   }
 
   /** An impulse: adds to a weight's velocity (per second), which drag (per second) then reduces. */
@@ -233,7 +227,6 @@ export class Sweepface {
     if (!Number.isFinite(drag) || drag < 0)
       throw new RangeError(`The drag on a push must be a finite number of at least 0, not ${told(drag)}.`);
     runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
-    for (const r of shared.places()) this.#drives.delete(shared.names.length * r + target);
   }
 
   /** Advances the weights in motion; returns whether anything still moves. */
@@ -242,24 +235,14 @@ export class Sweepface {
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
     if (!this.#own.motion) return false;
-    const passing = passed(seconds);
-    const still = 1e-6, before = this.#copyWeights().slice();
-    const isDriven = this.#drives.size > 0;
-    wasm.sweepface_motion_advance(this.#own.motion, seconds);
-    runtime.check(wasm.sweepface_motion_velocities(this.#own.motion, weights, count));
-    const velocities = runtime.doubles(weights, count).slice();
-    runtime.check(wasm.sweepface_motion_positions(this.#own.motion, weights, count));
+    const still = 1e-6, before = this.#copyWeights().slice(), {motion} = this.#own;
+    const isMoving = wasm.sweepface_motion_moves(motion, still) === 1;
+    wasm.sweepface_motion_advance(motion, seconds);
+    runtime.check(wasm.sweepface_motion_positions(motion, weights, count));
     const now = runtime.doubles(weights, count);
-    // A weight that sets out or turns back has no velocity either, but is not at its goal.
-    for (const [place, drive] of this.#drives) {
-      drive.left -= passing;
-      const isThere = Math.abs(now[place] - drive.goal) <= still && Math.abs(velocities[place]) <= still;
-      if (isThere && drive.left <= 0) this.#drives.delete(place);
-    }
     now.set(now.map((weight) => Math.min(Math.max(weight, -MOST), MOST)));  // springs and pushes may overshoot
     this.#takeWeights();
-    return isDriven || velocities.some((velocity) => Math.abs(velocity) > still) ||
-           runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
+    return isMoving || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
   }
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */

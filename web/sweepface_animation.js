@@ -22,7 +22,7 @@ function targetsOf(track, scene) {
   return {targets: name === undefined ? [] : [[name, 0]], count: 1};
 }
 
-/** Tracks for the targets of a face, or undefined if the animation moves none of them. */
+/** Tracks for the targets of a face, or undefined if the animation has none for them. */
 function tracksFor(face, scene, animation) {
   const unmoved = new Set(face.names), tracks = [];
   for (const track of animation.tracks) {
@@ -34,7 +34,7 @@ function tracksFor(face, scene, animation) {
 }
 
 /**
- * Makes a clip for a face from an animation of a glTF file, by default the first that moves any of its targets. It has
+ * Makes a clip for a face from an animation of a glTF file, by default the first that has tracks for any of its targets. It has
  * a track for each target of the face that ever leaves 0. Of several tracks for a target the first counts.
  */
 export function animationFor(face, gltf, animation) {

@@ -1,15 +1,16 @@
 // .sweep faces for Babylon.js: a mesh whose geometry follows the weights.
 import {Vector3} from '@babylonjs/core/Maths/math.vector.js';
 import {VertexBuffer} from '@babylonjs/core/Buffers/buffer.js';
+import {EngineStore} from '@babylonjs/core/Engines/engineStore.js';
 import {MultiMaterial} from '@babylonjs/core/Materials/multiMaterial.js';
 import {StandardMaterial} from '@babylonjs/core/Materials/standardMaterial.js';
 import {Mesh} from '@babylonjs/core/Meshes/mesh.js';
 import {VertexData} from '@babylonjs/core/Meshes/mesh.vertexData.js';
 import {SubMesh} from '@babylonjs/core/Meshes/subMesh.js';
 import {Sweepface} from './sweepface.js';
-import {ownRegions} from './sweepface_regions.js';
+import {ownOptions} from './sweepface_regions.js';
 import {twinOf} from './sweepface_twin.js';
-import {boxOf, otherGeometry} from './sweepface_values.js';
+import {boxOf, faceFrom, nameOf, otherGeometry} from './sweepface_values.js';
 
 /** Materials that meshes made for themselves. */
 const made = new WeakSet();
@@ -56,12 +57,11 @@ async function download(url) {
 
 /** The name of a file without its folders and query; other URLs, such as data:, have none. */
 function nameIn(source) {
-  const path = /^(data|blob):/i.test(source) ? '' : String(source).split(/[?#]/)[0];
-  return path.split('/').pop() || 'face';
+  return (/^(data|blob):/i.test(source) ? '' : nameOf(source).split('/').pop()) || 'face';
 }
 
 function checkScene(scene) {
-  if (scene && typeof scene.getEngine !== 'function')
+  if (typeof scene?.getEngine !== 'function')
     throw new TypeError('A mesh takes the scene that it belongs to, and what else it takes after that.');
 }
 
@@ -84,16 +84,15 @@ export class SweepfaceMesh extends Mesh {
   #vectors;
   #stale = true;
   #moving;
-  #observers;
+  #observers = [];
   #material;  // that it was made with
   #isMirrored;
 
   /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load. */
   static async load(source, scene, options = {}) {
-    checkScene(scene);
-    const usual = {...options}, isUrl = typeof source === 'string' || source instanceof URL;
-    if (usual.regions) usual.regions = ownRegions(usual.regions);
-    if (isUrl) usual.name ??= String(source);
+    if (scene) checkScene(scene);
+    const usual = ownOptions(options), isUrl = typeof source === 'string' || source instanceof URL;
+    if (isUrl) usual.name ??= nameOf(source);
     scene?.addPendingData(usual);  // its whenReadyAsync() waits
     try {
       const face = await Sweepface.load(isUrl ? await download(source) : source, usual);
@@ -115,14 +114,24 @@ export class SweepfaceMesh extends Mesh {
 
   /** The mesh disposes of the face with itself. Materials are made for its parts if none is given. */
   constructor(name, scene, face, material) {
-    if (typeof face?.evaluate !== 'function') throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
-    checkScene(scene);
+    faceFrom(face);
+    checkScene(scene ?? EngineStore.LastCreatedScene);
     if (material && typeof material.isReady !== 'function')
       throw new TypeError('A mesh takes a Material of Babylon.js, or none.');
     const moving = face.advance(0);  // throws if it was disposed of, before the scene has a mesh of it
     super(name, scene);
     this.face = face;
     this.#moving = moving;
+    try {
+      this.#show(material);
+    } catch (error) {  // as when there is no memory left
+      super.dispose();
+      throw error;
+    }
+  }
+
+  #show(material) {
+    const {face} = this;
     this.#isMirrored = !this.getScene().useRightHandedSystem;
     this.#vectors = [VertexBuffer.PositionKind, VertexBuffer.NormalKind].map((kind) => {
       return {kind, values: new Float32Array(3 * face.vertexCount)};

@@ -1,16 +1,15 @@
 // Reads captures: CSV of Live Link Face, JSON of Audio2Face and MediaPipe.
 import {Clip} from './sweepface_clip.js';
-import {isNumber, isObject, lowered, parseJson, textOf} from './sweepface_text.js';
-import {isWeight, known} from './sweepface_values.js';
+import {isObject, lowered, parseJson, textOf} from './sweepface_text.js';
+import {isWeight, known, MOST_WEIGHTS} from './sweepface_values.js';
 
 const MOST_TIME = 1e10;  // seconds
 const USUAL_RATE = 60;  // frames a second in timecodes
-/** The most weights that a clip can hold: frames times names. */
-const MOST_WEIGHTS = 2 ** 26;
 
-/** The number that a text is, or NaN if there is anything else in it. */
+/** The number that a text is, or NaN if there is anything else in it, or a number too small to be told from 0. */
 function numberIn(text) {
-  return /^[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
+  const [, digits] = /^[+-]?(\d+(?:\.\d*)?|\.\d+)(?:e[+-]?\d+)?$/i.exec(text) ?? [], number = Number(text);
+  return digits === undefined || (number === 0 && /[1-9]/.test(digits)) ? NaN : number;
 }
 
 /** Whether a character may surround a cell: ASCII white space only. */
@@ -191,7 +190,7 @@ function timeOf(timecode, fail) {
 
 function readAudio2Face(json, name, fail) {
   const {exportFps, facsNames: names, weightMat: rows, numFrames} = json;
-  if (!isNumber(exportFps) || !(exportFps > 0)) throw fail('has no \'exportFps\' greater than 0');
+  if (!Number.isFinite(exportFps) || !(exportFps > 0)) throw fail('has no \'exportFps\' greater than 0');
   if (!Array.isArray(names) || names.length === 0) throw fail('has no list \'facsNames\' with names in it');
   if (!names.every((name) => typeof name === 'string')) throw fail('has a value in \'facsNames\' that is not a name');
   const seen = new Set(), twice = names.find((name) => seen.size === seen.add(name).size);
@@ -268,7 +267,7 @@ function scoresOf(frame, f, fail) {
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
     const {categoryName: shape = category?.category_name} = category ?? {};
-    if (typeof shape !== 'string' || !isNumber(category.score))
+    if (typeof shape !== 'string' || !Number.isFinite(category.score))
       throw fail(`has a category without 'categoryName' and 'score' in frame ${f}`);
     if (!isWeight(category.score)) throw fail(`has a score in frame ${f} that is not within ±1,000,000`);
     return [shape, category.score];

@@ -1,7 +1,8 @@
 // Shared by the meshes of sweepface/gpu and sweepface/webgpu: tables in textures, the attributes that point into them,
 // and materials that follow one face each.
 import {BufferAttribute, DataTexture, NearestFilter, Vector3} from 'three';
-import {FaceMesh, expression, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
+import {FaceMesh, expression, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
+import {faceFrom} from './sweepface_values.js';
 
 /** Texels in a row: texel k of a texture is at (k mod 1024, k / 1024). */
 const WIDTH = 1024;
@@ -25,6 +26,7 @@ const numbersOf = ({image: {data}}) => new Int16Array(data.buffer, data.byteOffs
  */
 class Textures {
   #basis;
+  #isGone = false;
 
   constructor({positions, tangents}, kind) {
     this.between = 4 * positions.modes;
@@ -50,6 +52,8 @@ class Textures {
   }
 
   dispose() {
+    if (this.#isGone) return;
+    this.#isGone = true;
     if (--this.#basis.users === 0) this.basis.dispose();
     this.modes.dispose();
   }
@@ -99,7 +103,7 @@ const attributesOf = (face, {positions, tangents}) => ({
  * For materials that follow a face: the `hooks` that the mesh put on them, by the names of members, and what was there
  * `before`, as {hooks: {positionNode: the face's}, before: {positionNode: the material's own or null}}.
  */
-const own = new WeakMap();
+const hooked = new WeakMap();
 
 /** Says once for each kind of mesh that a renderer, which must not be stopped in the middle of a frame, cannot draw it. */
 const complained = new Set();
@@ -124,7 +128,6 @@ export const textures = Symbol('textures');
 /** A face in a scene whose vertices are evaluated in the vertex shader. */
 export class CardMesh extends FaceMesh {
   #textures;
-  #isGone = false;
   #followers = new Set();  // materials that follow the face
   #met = {};  // the face as it stood when a ray came last: attributes, and their bounding sphere
 
@@ -144,43 +147,41 @@ export class CardMesh extends FaceMesh {
     const all = new Set([material, customDepthMaterial, customDistanceMaterial].flat().filter(Boolean));
     const fresh = [...all].filter((each) => !this.#isFollowing(each));
     for (const each of fresh) {  // check all before changing any
-      if (own.has(each) && !this.#followers.has(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
+      if (hooked.has(each) && !this.#followers.has(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
       this[check](each);
     }
     for (const each of this.#followers) if (!all.has(each) || fresh.includes(each)) this.#release(each);
     for (const each of fresh) this.#patch(each);
   }
 
-  [check]() {}
-
   /** Whether a material still has all the hooks that this mesh put on it. */
   #isFollowing(material) {
     if (!this.#followers.has(material)) return false;
-    const {hooks} = own.get(material);
+    const {hooks} = hooked.get(material);
     return this[hookNames].every((name) => material[name] === hooks[name]);
   }
 
   /** A material's own members, in place of which the mesh puts its hooks. */
   #hooksOf(material) {
-    return own.get(material)?.before ?? Object.fromEntries(this[hookNames].map((name) => [name, material[name] ?? null]));
+    return hooked.get(material)?.before ?? Object.fromEntries(this[hookNames].map((name) => [name, material[name] ?? null]));
   }
 
   #patch(material) {
     material.dispose();  // programs that a renderer made of it before know no face, or another
     const before = this.#hooksOf(material), hooks = this[hooksFor](material);
     this.#followers.add(material);
-    own.set(material, {before, hooks});
+    hooked.set(material, {before, hooks});
     Object.assign(material, hooks);
     material.needsUpdate = true;
   }
 
   #release(material) {
     material.dispose();
-    const {before, hooks} = own.get(material);
+    const {before, hooks} = hooked.get(material);
     for (const hook of this[hookNames])  // a member that was replaced since stays
       if (material[hook] === hooks[hook]) material[hook] = before[hook];
     material.needsUpdate = true;
-    own.delete(material);
+    hooked.delete(material);
     this.#followers.delete(material);
   }
 
@@ -227,8 +228,7 @@ export class CardMesh extends FaceMesh {
   }
 
   dispose() {
-    if (!this.#isGone) this.#textures.dispose();
-    this.#isGone = true;
+    this.#textures.dispose();
     super.dispose();
     for (const material of this.#followers) this.#release(material);
   }

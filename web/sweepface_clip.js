@@ -1,13 +1,13 @@
 // Clips, which are weights over time, and a player for them.
 import {matchNames, turnsEyes} from './sweepface_names.js';
-import {isNumber, isObject} from './sweepface_text.js';
-import {isFloats, kindOf, known, told} from './sweepface_values.js';
+import {fewOf, isObject} from './sweepface_text.js';
+import {isFloats, isGiven, isWeight, kindOf, known, MOST_WEIGHTS, told} from './sweepface_values.js';
 
 /** Seconds between frames up to which speeds would not stay finite. */
 const NO_TIME = 1e-9;
 const ONE_EURO = ['cutoff', 'speedGain', 'speedCutoff'];
 
-const MOST_FACTOR = 1000, MOST_WEIGHT = 1e6;
+const MOST_FACTOR = 1000;
 
 /** The entries of a map of names, as [name of the clip, [[target, factor]]]. */
 function drivesOf(map) {
@@ -15,10 +15,10 @@ function drivesOf(map) {
     throw new TypeError(`A map of names is an object that has targets by names of a clip, not ${kindOf(map)}.`);
   const isText = (target) => typeof target === 'string';
   return Object.entries(map).map(([name, drives]) => {
-    if (drives === null || drives === undefined) return [name, []];
+    if (!isGiven(drives)) return [name, []];
     const list = [drives].flat();
     if (list.every(isText)) return [name, list.map((target) => [target, 1])];
-    if (isObject(drives) && Object.values(drives).every((factor) => isNumber(factor) && Math.abs(factor) <= MOST_FACTOR))
+    if (isObject(drives) && Object.values(drives).every((factor) => Number.isFinite(factor) && Math.abs(factor) <= MOST_FACTOR))
       return [name, Object.entries(drives)];
     throw new TypeError(`'${name}' drives the name of a target, a list of some, an object of numbers within ±1000 by name, or null.`);
   });
@@ -104,7 +104,7 @@ export class Clip {
   smooth(settings) {
     const {cutoff = 1, speedGain = 8, speedCutoff = 5} = known(settings, ONE_EURO, 'The one-euro filter');
     for (const number of [cutoff, speedGain, speedCutoff])
-      if (!(isNumber(number) && number >= 0))
+      if (!(Number.isFinite(number) && number >= 0))
         throw new RangeError(`The one-euro filter needs finite numbers of at least 0, not ${told(number)}.`);
     const [late, early] = [false, true].map((backwards) => this.#filtered(cutoff, speedGain, speedCutoff, backwards));
     const clip = new Clip(this.names, this.times, late.map((weight, k) => (weight + early[k]) / 2));
@@ -118,16 +118,17 @@ export class Clip {
    */
   renamed(map) {
     const {columns, lacks} = mappedColumns(this.names, drivesOf(map)), n = this.names.length, width = columns.length;
+    if (this.times.length * width > MOST_WEIGHTS) throw new RangeError('The clip would have too many weights; cut it.');
     const weights = new Float64Array(this.times.length * width);
     for (let f = 0; f < this.times.length; ++f)
       columns.forEach(({sources}, k) => {
         for (const {found, factor} of sources)
           weights[f * width + k] += factor * Math.max(...found.map((column) => this.weights[f * n + column]));
-        if (Math.abs(weights[f * width + k]) > MOST_WEIGHT)
+        if (!isWeight(weights[f * width + k]))
           throw new RangeError(`'${columns[k].name}' would get a weight beyond ±1,000,000.`);
       });
     const clip = new Clip(columns.map(({name}) => name), this.times, weights);
-    clip.warnings = lacks.length > 0 ? [...this.warnings, `The clip has no ${lacks.join(', ')}.`] : this.warnings;
+    clip.warnings = lacks.length > 0 ? [...this.warnings, `The clip has no ${fewOf(lacks)}.`] : this.warnings;
     return clip;
   }
 

@@ -1,6 +1,6 @@
 import type {Bytes, Drive, Region, Sweepface, Weights} from './sweepface.js';
 
-/** A face, or a mesh of sweepface/three, sweepface/gpu or sweepface/webgpu. */
+/** A face, or a mesh of sweepface/three, sweepface/gpu, sweepface/webgpu or sweepface/babylon. */
 export type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'> &
   Partial<Pick<Sweepface, 'regions'>>;
 

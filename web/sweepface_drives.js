@@ -45,12 +45,9 @@ export function faultOf(drive) {
   return tooMuch(peak / Math.min(turn, 1 - turn) / seconds, FAR * seconds);
 }
 
-/** The factor by which weights of a region take longer. */
-const stretchOf = ({mass = 1, stiffness = 1} = {}) => Math.sqrt(mass / stiffness);
-
 /** The numbers of a drive, scaled to how weights of a region follow it. */
 function inMatter([, seconds, turn, frequency, damping, restitution], matter) {
-  const {mass = 1, stiffness = 1} = matter ?? {}, stretch = stretchOf(matter);
+  const {mass, stiffness} = matter ?? {mass: 1, stiffness: 1}, stretch = Math.sqrt(mass / stiffness);
   return {seconds: seconds * stretch, turn, frequency: frequency / stretch,
           damping: damping / Math.sqrt(mass * stiffness), restitution};
 }
@@ -82,10 +79,4 @@ export function writeDrive(runtime, at, drive, matters) {
     const fault = faultOf({...inMatter(numbers, matter), kind: name});
     if (fault) throw new RangeError(`${fault}.`);
   }
-}
-
-/** Seconds before which the drive written at `at` brings no weight of this matter to rest. */
-export function secondsOf(runtime, at, matter) {
-  const kind = KINDS[runtime.ints(at, 1)[0]], [delay, seconds] = runtime.doubles(at + 8, 2);
-  return delay + (matter?.delay ?? 0) + (goesBy(kind, 'seconds') ? seconds : 0) * stretchOf(matter);
 }

@@ -1,15 +1,23 @@
 // Opens a .sweep file in a module: the options, and what all faces of the file share.
 import {divider} from './sweepface_regions.js';
-import {bytesOf, known, told} from './sweepface_values.js';
-import {compile, instantiate, isCompiled, isGiven, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
+import {bytesOf, isGiven, known, told} from './sweepface_values.js';
+import {compile, instantiate, isCompiled, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
 
 /** The budgets that may choose a level of detail, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
+const DETAILS = ['lod', ...BUDGETS];
 const SWITCHES = ['arcs', 'combine', 'eyes'];
-const OPTIONS = ['lod', ...BUDGETS, 'name', ...SWITCHES, 'regions', 'wasm'];
+const OPTIONS = [...DETAILS, 'name', ...SWITCHES, 'regions', 'wasm'];
 
 /** What targets may follow, as flags of the C interface. */
 const FOLLOW = {arcs: 1, combine: 2};
+
+/** Usual options and others that replace them, unless undefined; one way to ask for a level of detail replaces all. */
+export function withOptions(usual, options) {
+  const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined)), all = {...usual};
+  if (DETAILS.some((key) => key in given)) for (const key of DETAILS) delete all[key];
+  return {...all, ...given};
+}
 
 /** Checks options and reads from them how the file is played, and whether that needs the full module. */
 function read(options) {
@@ -18,7 +26,7 @@ function read(options) {
   for (const key of SWITCHES)
     if (![undefined, null, true, false].includes(given[key]))
       throw new TypeError(`The option '${key}' is true or false, not ${told(given[key])}.`);
-  const details = ['lod', ...BUDGETS].filter((key) => given[key] !== undefined);
+  const details = DETAILS.filter((key) => given[key] !== undefined);
   if (details.length > 1)
     throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);
   if (!Number.isInteger(lod) || lod < 0 || lod >= 2 ** 32)

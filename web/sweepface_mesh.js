@@ -16,12 +16,6 @@ function materialsFrom(materials, {parts}) {
   throw new TypeError(`A mesh takes a material, or one for each part of the face, of which there are ${parts.length}.`);
 }
 
-/** The given face; throws if it is what Sweepface.load promises or takes. */
-export function faceFrom(face) {
-  if (typeof face?.evaluate === 'function') return face;
-  throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
-}
-
 /** A stand-in that is not on the graphics card: WebGPURenderer looks for every attribute that it has drawn. */
 const NOTHING = new BufferAttribute(new Float32Array(0), 3);
 

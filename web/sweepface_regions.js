@@ -1,5 +1,6 @@
 // Regions of a face (docs/regions.md), painted by the C interface (include/sweepface/sweepface_regions.h).
 import {kindOf} from './sweepface_values.js';
+import {bytesOfText} from './sweepface_wasm.js';
 
 const MATTER = {mass: 1, stiffness: 1, delay: 0};
 const PLACES = ['parts', 'points', 'line', 'curves', 'nodes'];
@@ -18,7 +19,7 @@ class Copies {
     this.#runtime.bytes(at, bytes.byteLength).set(new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength));
     return at;
   }
-  text(text) { return this.bytes(new TextEncoder().encode(text + '\0')); }
+  text(text) { return this.bytes(bytesOfText(text)); }
   texts(list) { return this.bytes(new Uint32Array(list.map((text) => this.text(text)))); }
   numbers(list) { return this.bytes(new Float64Array(list)); }
 
@@ -69,14 +70,15 @@ function copyOf({parts = [], points = [], line = [], curves = [], nodes = {}, ..
           nodes: {...nodes}};
 }
 
-/** Copies regions that the caller may go on changing. Invalid ones are returned as given, to be refused when used. */
-export function ownRegions(given) {
+/** Copies options of a load that the caller may go on changing. Invalid regions stay, to be refused when used. */
+export function ownOptions(options) {
+  const own = {...options};
+  if (!own.regions) return own;
   try {
-    check(given);
-  } catch {
-    return given;
-  }
-  return given.map(copyOf);
+    check(own.regions);
+    own.regions = own.regions.map(copyOf);
+  } catch {}
+  return own;
 }
 
 /** The C struct of a brush. */

@@ -13,8 +13,11 @@ export function textOf(source, what, name) {
   return decoder.decode(bytes.slice());  // a copy, as browsers do not decode shared memory
 }
 
-export const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
+
+/** "a, b and 3 more": lists at most six of the texts. */
+export const fewOf = (texts) =>
+  texts.slice(0, 6).join(', ') + (texts.length > 6 ? ` and ${texts.length - 6} more` : '');
 
 /** Lower case, of A to Z only. */
 export const lowered = (text) => text.replace(/[A-Z]/g, (letter) => letter.toLowerCase());

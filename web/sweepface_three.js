@@ -1,9 +1,10 @@
 // .sweep faces for three.js: a loader, and a mesh whose geometry follows the weights.
 import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
-import {FaceMesh, faceFrom, geometryOf, show, standing} from './sweepface_mesh.js';
-import {ownRegions} from './sweepface_regions.js';
-import {boxOf, otherGeometry} from './sweepface_values.js';
+import {withOptions} from './sweepface_file.js';
+import {FaceMesh, geometryOf, show, standing} from './sweepface_mesh.js';
+import {ownOptions} from './sweepface_regions.js';
+import {boxOf, faceFrom, nameOf, otherGeometry} from './sweepface_values.js';
 
 export {animationFor} from './sweepface_animation.js';
 
@@ -69,11 +70,10 @@ export class SweepfaceLoader extends Loader {
   }
 
   load(url, onLoad, onProgress, onError) {
-    const {manager} = this, usual = {...this.options}, loader = new FileLoader(manager);
-    if (usual.regions) usual.regions = ownRegions(usual.regions);
+    const {manager} = this, usual = ownOptions(this.options), loader = new FileLoader(manager);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
-    const tell = onError ?? console.error, name = usual.name || url, aborts = this.#aborts;
+    const tell = onError ?? console.error, name = usual.name || nameOf(url), aborts = this.#aborts;
     const deliver = (mesh) => {
       if (aborts === this.#aborts) return onLoad(mesh);
       mesh.dispose();
@@ -116,7 +116,7 @@ export class SweepfaceLoader extends Loader {
   /** `usual` are the loader's options at the time when a load began. */
   async parseAsync(bytes, options = {}, usual = this.options) {
     if (typeof options === 'string') throw new TypeError('parseAsync takes bytes and options, no path; faces name no other files.');
-    const {mesh, ...others} = {...usual, ...options}, Made = meshFrom(mesh);
+    const {mesh, ...others} = withOptions(usual, options), Made = meshFrom(mesh);
     return new Made(await Sweepface.load(bytes, others));
   }
 }

@@ -1,11 +1,12 @@
 // Reads timelines, which animators write, and plays them on a face.
 import {faultOf, goesBy, KINDS, NUMBERS} from './sweepface_drives.js';
 import {matchNames, turnsEyes} from './sweepface_names.js';
-import {isNumber, isObject, parseJson, textOf} from './sweepface_text.js';
+import {isObject, parseJson, textOf} from './sweepface_text.js';
 import {isWeight, known, passed, told} from './sweepface_values.js';
 
 const EVENT = ['at', 'to', 'only', 'drive', 'region', ...NUMBERS];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
+const MOST_GOALS = 8e6;
 
 /** Reads a timeline from JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
 export function readTimeline(source, options) {
@@ -15,10 +16,10 @@ export function readTimeline(source, options) {
   if (!isObject(json)) throw fail('the file', 'is not an object');
   for (const key of Object.keys(json))
     if (!TIMELINE.includes(key)) throw fail('the file', `has an unknown key '${key}'`);
-  const {seconds, loops = 1, poses = {}, events, regions} = json;
+  const {seconds, loops = 1, poses = {}, events, regions} = json, sizes = new Map();
   if (seconds === undefined) throw fail('the file', 'has no \'seconds\'');
   for (const key of ['seconds', 'loops'])
-    if (key in json && !isNumber(json[key])) throw fail('the file', `has a '${key}' that is not a number`);
+    if (key in json && !Number.isFinite(json[key])) throw fail('the file', `has a '${key}' that is not a number`);
   if (!(seconds > 0)) throw fail('\'seconds\'', 'must be greater than 0');
   if (!Number.isInteger(loops) || loops < 1 || loops > 10000)
     throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
@@ -26,8 +27,13 @@ export function readTimeline(source, options) {
   if (regions !== undefined && !Array.isArray(regions)) throw fail('\'regions\'', 'are not a list');
   if (!isObject(poses)) throw fail('\'poses\'', 'are not an object');
   const end = seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
+  let goals = 0;
   const read = events.map((json, k) => {
-    const place = `events[${k}]`, event = readEvent(json, poses, place, fail);
+    const place = `events[${k}]`, event = readEvent(json, {poses, sizes}, place, fail);
+    goals += sizes.get(event.goals);
+    if (goals > MOST_GOALS)
+      throw fail(place, 'is beyond the 8,000,000 goals of a timeline, those of poses counted for each event; send off ' +
+                        'fewer weights, or cut it');
     if (event.at > seconds) throw fail(place, 'is later than \'seconds\'');
     if (event.at + (event.drive.delay ?? 0) > end)
       throw fail(place, 'has a \'delay\' that leads beyond the end, so that it never plays');
@@ -36,14 +42,14 @@ export function readTimeline(source, options) {
   return {seconds, loops, events: read.sort((a, b) => a.at - b.at), regions};
 }
 
-function readEvent(event, poses, place, failAt) {
+function readEvent(event, file, place, failAt) {
   const fail = (what) => failAt(place, what);
   if (!isObject(event)) throw fail('is not an object');
   for (const key of Object.keys(event))
     if (!EVENT.includes(key)) throw fail(`has an unknown key '${key}'`);
   if (!('at' in event)) throw fail('has no \'at\'');
   for (const key of ['at', ...NUMBERS])
-    if (key in event && !isNumber(event[key])) throw fail(`has a '${key}' that is not a number`);
+    if (key in event && !Number.isFinite(event[key])) throw fail(`has a '${key}' that is not a number`);
   for (const key of ['drive', 'region'])
     if (key in event && typeof event[key] !== 'string') throw fail(`has a '${key}' that is not a text`);
   const {drive: kind = 'spring'} = event, numbers = NUMBERS.filter((key) => key in event);
@@ -57,23 +63,29 @@ function readEvent(event, poses, place, failAt) {
   if (fault) throw fail(`cannot be: ${fault}`);
   if (event.delay < 0) throw fail('has a negative \'delay\'');
   if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');
-  const goals = readGoals(event.to ?? event.only, poses, place, failAt), drive = {kind};
+  const goals = readGoals(event.to ?? event.only, file, place, failAt), drive = {kind};
   for (const key of numbers) drive[key] = event[key];
   return {at: event.at, goals, others: 'only' in event, drive, region: event.region || undefined};
 }
 
-/** The goals of an event: weights by name, given directly or by the name of a pose that has them. */
-function readGoals(wanted, poses, place, failAt) {
+/**
+ * The goals of an event: weights by name, given directly or by the name of a pose that has them. Adds their number to
+ * `sizes`, by which a pose that many events go to is checked once.
+ */
+function readGoals(wanted, {poses, sizes}, place, failAt) {
   if (typeof wanted === 'string') {
-    if (!Object.keys(poses).includes(wanted))
+    if (!Object.prototype.hasOwnProperty.call(poses, wanted))
       throw failAt(place, `goes to a pose '${wanted}' that 'poses' does not have`);
     const pose = `pose '${wanted}'`;
     if (!isObject(poses[wanted])) throw failAt(pose, 'is not an object of weights');
-    return readGoals(poses[wanted], poses, pose, failAt);
+    return readGoals(poses[wanted], {poses, sizes}, pose, failAt);
   }
   if (!isObject(wanted)) throw failAt(place, 'goes neither to weights nor to a pose');
-  for (const [weight, goal] of Object.entries(wanted))
+  if (sizes.has(wanted)) return wanted;
+  const goals = Object.entries(wanted);
+  for (const [weight, goal] of goals)
     if (!isWeight(goal)) throw failAt(place, `has a weight '${weight}' that is not a number within ±1,000,000`);
+  sizes.set(wanted, goals.length);
   return wanted;
 }
 
@@ -97,7 +109,8 @@ export class TimelinePlayer {
     this.face = face;
     this.timeline = timeline;
     this.#events = [...timeline.events].sort((a, b) => a.at - b.at);
-    const names = [...new Set(timeline.events.flatMap(({goals}) => Object.keys(goals)))];
+    const goals = new Set(timeline.events.map((event) => event.goals));  // many events may go to one pose
+    const names = [...new Set([...goals].flatMap(Object.keys))];
     /** Which names drive which targets: see matchNames. */
     this.match = matchNames(names, face.names);
     this.#looks = turnsEyes(this.match, face.names);

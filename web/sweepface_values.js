@@ -7,6 +7,11 @@ export const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
 export const MOST = 1e6;
 export const isWeight = (value) => Number.isFinite(value) && Math.abs(value) <= MOST;
 
+/** The most weights that a clip can hold: frames times names. */
+export const MOST_WEIGHTS = 2 ** 26;
+
+export const isGiven = (it) => it !== undefined && it !== null;
+
 /** Whether it is an array of floats or doubles, the number types of the module. */
 export const isFloats = (it) => ['Float32Array', 'Float64Array'].includes(kindOf(it));
 
@@ -53,6 +58,18 @@ export function boxOf(points) {
     if (c < z) z = c; else if (c > Z) Z = c;
   }
   return [[x, y, z], [X, Y, Z]];
+}
+
+/** The given face; throws if it is what Sweepface.load promises or takes. */
+export function faceFrom(face) {
+  if (typeof face?.evaluate === 'function') return face;
+  throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
+}
+
+/** What messages call the file at a URL: neither the bytes that a data: URL is made of, nor a query, which may be secret. */
+export function nameOf(url) {
+  const text = String(url);
+  return /^data:/i.test(text) ? text.split(',')[0] : text.split(/[?#]/)[0];
 }
 
 /** What is wrong with a geometry that was put in the place of a mesh's own. */

@@ -1,5 +1,5 @@
 // Loads the WebAssembly modules and calls the C interface in them (include/sweepface/sweepface.h).
-import {bytesOf, kindOf, told} from './sweepface_values.js';
+import {bytesOf, isGiven, kindOf, told} from './sweepface_values.js';
 
 /** The message where only the usual module was given, which has no messages of its own. */
 export const UNSAID = 'sweepface.wasm cannot do that with this face; give sweepface_full.wasm, which can or says why.';
@@ -78,8 +78,6 @@ async function compileBytes(code) {
   }
 }
 
-export const isGiven = (wasm) => wasm !== undefined && wasm !== null;
-
 const compiled = {};  // by kind, each compiled once
 export function compile(wasm, kind) {
   if (kindOf(wasm) === 'WebAssembly.Module') return wasm;
@@ -104,6 +102,9 @@ export async function instantiate(module) {
     throw new MemoryError(error, '; dispose of others, or clone() those of one file');
   }
 }
+
+/** A text as C has it. */
+export const bytesOfText = (text) => encoder.encode(text + '\0');
 
 /** One instance of the module: a file and the faces made from it. Its memory is freed with it. */
 export class Runtime {
@@ -133,7 +134,6 @@ export class Runtime {
   bytes(at, length) { return new Uint8Array(this.wasm.memory.buffer, at >>> 0, length); }
   words(at, length) { return new Uint32Array(this.wasm.memory.buffer, at >>> 0, length); }
   shorts(at, length) { return new Int16Array(this.wasm.memory.buffer, at >>> 0, length); }
-  ints(at, length) { return new Int32Array(this.wasm.memory.buffer, at >>> 0, length); }
   floats(at, length) { return new Float32Array(this.wasm.memory.buffer, at >>> 0, length); }
   doubles(at, length) { return new Float64Array(this.wasm.memory.buffer, at >>> 0, length); }
 
@@ -166,7 +166,7 @@ export class Runtime {
     });
   }
 
-  lendText(text, use) { return this.lend(encoder.encode(text + '\0'), use); }
+  lendText(text, use) { return this.lend(bytesOfText(text), use); }
 
   /** Throws the module's message if a call failed; `unsaid` if it is the usual module, which has none. */
   check(status, unsaid = UNSAID) {

@@ -201,7 +201,6 @@ class Studio {
   Studio& operator=(Studio&&) noexcept;
   ~Studio();
 
-  const Scene& scene() const;
   Result<Image> shoot(const Camera& camera, PictureSize size) const;
 
  private:

@@ -116,6 +116,8 @@ struct Rig {
   /// The weights that put a face into that pose: [targets].
   Weights weightsOf(Index pose) const;
 
+  std::vector<std::string> targetNames() const;
+
   /// Whether it is known what every target does: not yet after `decodeNeutral`.
   bool knowsTargets() const;
   bool knows(const Target& target) const;

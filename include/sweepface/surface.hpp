@@ -123,6 +123,8 @@ struct Connectivity {
   static Result<Connectivity> make(const Wireframe& wireframe);
   /// The arm opposite to `arm` of a node's star: the line runs straight on; -1 if it ends here.
   int opposite(Index node, int arm) const;
+  /// The half-arc that leaves the start of `h` in the opposite direction; -1 if there is none.
+  HalfArc opposite(const Wireframe& wireframe, HalfArc h) const;
 };
 
 /// One term of a linear combination of vectors.
@@ -142,6 +144,8 @@ struct StoredVector {
   Index node = -1;
   int i = 0, j = 0;  ///< ∂x^i ∂y^j in the node's frame
   int fan = 0;       ///< whose frame it is, at a creased node
+
+  bool isPosition() const { return i + j == 0; }
 };
 
 /// Where the surface is asked for: (u, v) in source edges from the patch's first corner.

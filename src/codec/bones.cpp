@@ -51,7 +51,7 @@ Bones::Bones(const Surface& surface, const Packing& packing, std::span<const Vec
     if (bone < 0) continue;
     const StoredVector& s = surface.stored(v);
     const Vec3& p = neutral[v];
-    places_.push_back({v, bone, s.i + s.j == 0, p});
+    places_.push_back({v, bone, s.isPosition(), p});
     if (places_.back().isPosition) boxes[bone].include(p);
   }
   for (Place& p : places_) {

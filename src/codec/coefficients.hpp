@@ -77,7 +77,7 @@ class CoefficientCoder {
   // neutral.
   static constexpr std::uint16_t kNeutralMemory = 30, kTargetMemory = 16;
   static constexpr std::uint32_t kMostBits = 28;
-  static constexpr int kInputs = 5, kSets = 512;
+  static constexpr int kInputs = 5, kSets = 240;
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 

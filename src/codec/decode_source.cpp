@@ -1,9 +1,10 @@
-// Chunks that store data verbatim. Packed faces do not need them.
+// Chunks that store data verbatim.
 
 #include "codec/blocks.hpp"
 #include "codec/decoding.hpp"
 #include "codec/faces.hpp"
 #include "codec/names.hpp"
+#include "surface/vertex_numbers.hpp"
 
 namespace sweepface::codec {
 
@@ -12,12 +13,7 @@ namespace {
 // One vertex for each point and each T-node, and those within arcs and patches.
 std::int64_t gridVertices(const Surface& surface) {
   const Wireframe& w = surface.wireframe();
-  std::vector<char> seen(w.points);
-  std::int64_t count = 0;
-  for (const Node& node : w.nodes) {
-    count += node.point < 0 || !seen[node.point];
-    if (node.point >= 0) seen[node.point] = true;
-  }
+  std::int64_t count = VertexNumbers(w).count;
   for (const Arc& arc : w.arcs) count += arc.collapsed ? 0 : arc.edges - 1;
   for (Index p = 0; p < surface.patchCount(); ++p)
     count += (surface.edgesU(p) - std::int64_t{1}) * (surface.edgesV(p) - 1);

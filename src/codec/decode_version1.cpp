@@ -30,7 +30,7 @@ void readCreases(Decoding& d, Reader& in) {
 void readShapes(Decoding& d, Reader& in) {
   const std::size_t count = in.size();
   if (count / 8 > in.left()) in.refuse("there are more ribbons than the chunk can hold");
-  if (!in.ok()) return;
+  if (!in.ok() || !d.afford(in, count, kBytesARibbon)) return;
   d.wireframe.ribbons.resize(count);
   const std::vector<char> chosen = readMask(in, count);
   for (std::size_t r = 0; r < count && in.ok(); ++r)

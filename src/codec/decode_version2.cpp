@@ -102,7 +102,7 @@ class PoseReader {
     if (!d_.afford(in_, form.carries.size(), kBytesACarry)) symbols_.refuse(kTooMuchMemory);
     if (!symbols_.ok()) return;
     vectors_.code(current_, symmetryOf(form, pose), partnerOf(packing, lattice_, moved_, pose),
-                  movedIn(like, lattice_, moved_));
+                  hintsOf(like, lattice_, moved_));
     if (vectors_.hasTooManyBits()) symbols_.refuse("its numbers are too large for so few bytes");
     moved_[pose] = movedIn(current_);
     for (const Moved& m : moved_[pose]) current_[m.vector] = {};

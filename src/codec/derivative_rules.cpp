@@ -6,14 +6,6 @@
 
 namespace sweepface::codec {
 
-HalfArc oppositeOf(const Wireframe& w, const Connectivity& c, HalfArc h) {
-  const Index node = w.start(h);
-  const auto& arms = c.stars[node].arms;
-  const auto arm = std::ranges::find(arms, h) - arms.begin();
-  const int on = c.opposite(node, static_cast<int>(arm));
-  return on < 0 ? -1 : arms[on];
-}
-
 DerivativeRules::DerivativeRules(const Surface& surface, const std::vector<CodedSite>& sites,
                                  const std::vector<Index>& siteOf)
     : surface_(surface),
@@ -41,15 +33,14 @@ Index DerivativeRules::derivative(Index node, int i, int j) const {
   return -1;
 }
 
-DerivativeRules::Neighbour DerivativeRules::neighbour(Index node, int arm) const {
-  Neighbour n;
+LineNeighbour<DerivativeRules::Reached> DerivativeRules::neighbour(Index node, int arm) const {
+  LineNeighbour<Reached> n;
   const Star& star = c_.stars[node];
   if (arm >= static_cast<int>(star.arms.size())) return n;
   const Rail& rail = c_.rails[star.arms[arm]];
-  n.distance = rail.edges;
-  n.back = twin(rail.last);
-  n.node = w_.start(n.back);
-  n.has = placeAll(n.node, n.value);
+  n.value.back = twin(rail.last);
+  n.value.node = w_.start(n.value.back);
+  if (placeAll(n.value.node, n.value.position)) n.distance = rail.edges;
   return n;
 }
 
@@ -81,14 +72,16 @@ bool DerivativeRules::placeAll(Index node, FewTerms& terms) const {
 
 bool DerivativeRules::slope(Index node, HalfArc h, FewTerms& terms) const {
   if (c_.kinds[node] != NodeKind::crossing) return false;
-  const HalfArc back = oppositeOf(w_, c_, h);
+  const HalfArc back = c_.opposite(w_, h);
   if (back < 0) return false;
   const Rail &ahead = c_.rails[h], &behind = c_.rails[back];
   if (!isSite(w_.end(ahead.last)) || !isSite(w_.end(behind.last))) return false;
-  const double a = ahead.edges, b = behind.edges, s = 1 / (a * b * (a + b));
-  terms.push_back({position(w_.end(ahead.last)), b * b * s});
-  terms.push_back({position(w_.end(behind.last)), -a * a * s});
-  terms.push_back({position(node), (a * a - b * b) * s});
+  const auto at = [&](const Rail& rail) {
+    return LineNeighbour<Index>{static_cast<double>(rail.edges), position(w_.end(rail.last))};
+  };
+  const auto add = [&](Index vector, double factor) { terms.push_back({vector, factor}); };
+  derivativeFromValues(LineNeighbours<Index>{at(ahead), at(behind)}, 1, add,
+                       [&](double factor) { add(position(node), factor); });
   return true;
 }
 
@@ -103,35 +96,16 @@ void DerivativeRules::atCrossing(const CodedSite& site, const StoredVector& s, T
     along(neighbours(node, d), site.first, derivative(node, d == 0, d == 1), 2, terms);
 }
 
-void DerivativeRules::along(const std::array<Neighbour, 2>& at, Index own, Index slope, int order,
+void DerivativeRules::along(const LineNeighbours<Reached>& at, Index own, Index slope, int order,
                             Terms& terms) const {
-  if (slope >= 0) {
-    for (int e = 0; e < 2; ++e) {
-      if (!at[e].has) continue;
-      const double h = at[e].distance, outward = e == 0 ? 1 : -1;
-      const double weight = at[1 - e].has ? at[1 - e].distance / (h + at[1 - e].distance) : 1;
-      const double s = 2 * weight / (h * h);
-      addTerms(terms, at[e].value, s);
-      terms.push_back({own, -s});
-      terms.push_back({slope, -outward * h * s});
-    }
-    return;
-  }
-  if (!at[0].has || !at[1].has) {
-    if (order == 1)
-      for (int e = 0; e < 2; ++e)
-        if (at[e].has) {
-          const double s = (e == 0 ? 1 : -1) / at[e].distance;
-          addTerms(terms, at[e].value, s);
-          terms.push_back({own, -s});
-        }
-    return;
-  }
-  const double a = at[0].distance, b = at[1].distance;
-  const double s = (order == 1 ? 1 : 2) / (a * b * (a + b));
-  addTerms(terms, at[0].value, order == 1 ? b * b * s : b * s);
-  addTerms(terms, at[1].value, order == 1 ? -a * a * s : a * s);
-  terms.push_back({own, order == 1 ? (a * a - b * b) * s : -(a + b) * s});
+  const auto add = [&](const Reached& n, double factor) { addTerms(terms, n.position, factor); };
+  const auto addOwn = [&](Index vector) {
+    return [&terms, vector](double factor) { terms.push_back({vector, factor}); };
+  };
+  if (slope < 0)
+    derivativeFromValues(at, order, add, addOwn(own));
+  else
+    derivativeFromSlope(at, add, addOwn(own), addOwn(slope));
 }
 
 void DerivativeRules::mixed(Index node, Terms& terms) const {
@@ -141,35 +115,24 @@ void DerivativeRules::mixed(Index node, Terms& terms) const {
   for (const FewTerms& t : change) addTerms(terms, t, 1.0 / std::max(1, known));
 }
 
-bool DerivativeRules::changeAcross(Index node, const std::array<Neighbour, 2>& at, int d,
+bool DerivativeRules::changeAcross(Index node, const LineNeighbours<Reached>& at, int d,
                                    FewTerms& terms) const {
   const Index own = derivative(node, d == 0, d == 1);
   if (own < 0) return false;
-  std::array<FewTerms, 2> across;
-  std::array<bool, 2> has{};
+  LineNeighbours<FewTerms> across;
   for (int e = 0; e < 2; ++e)
-    has[e] = at[e].has && isSite(at[e].node) && slopeAcross(at[e], (d == 0) == (e == 0), across[e]);
-  if (has[0] && has[1]) {
-    const double a = at[0].distance, b = at[1].distance, s = 1 / (a * b * (a + b));
-    addTerms(terms, across[0], b * b * s);
-    addTerms(terms, across[1], -a * a * s);
-    terms.push_back({own, (a * a - b * b) * s});
-    return true;
-  }
-  for (int e = 0; e < 2; ++e)
-    if (has[e]) {
-      const double s = (e == 0 ? 1 : -1) / at[e].distance;
-      addTerms(terms, across[e], s);
-      terms.push_back({own, -s});
-      return true;
-    }
-  return false;
+    if (at[e].has() && isSite(at[e].value.node) &&
+        slopeAcross(at[e].value, (d == 0) == (e == 0), across[e].value))
+      across[e].distance = at[e].distance;
+  derivativeFromValues(
+      across, 1, [&](const FewTerms& slope, double factor) { addTerms(terms, slope, factor); },
+      [&](double factor) { terms.push_back({own, factor}); });
+  return across[0].has() || across[1].has();
 }
 
-bool DerivativeRules::slopeAcross(const Neighbour& n, bool right, FewTerms& terms) const {
+bool DerivativeRules::slopeAcross(const Reached& n, bool right, FewTerms& terms) const {
   if (c_.kinds[n.node] != NodeKind::crossing || !c_.stars[n.node].closed) return false;
   const auto& arms = c_.stars[n.node].arms;
-  if (arms.size() != 4) return false;
   const auto back = std::ranges::find(arms, n.back) - arms.begin();
   // `back` points against travel; the arm after it, counter-clockwise, points to the right.
   const int arm = static_cast<int>(back + (right ? 1 : 3)) % 4;
@@ -187,8 +150,8 @@ void DerivativeRules::atHub(const CodedSite& site, const StoredVector& s, Terms&
   Terms x, y;
   for (const auto& [node, arm] : spokes(site)) {
     const HalfArc h = c_.stars[node].arms[arm];
-    const Neighbour n = neighbour(node, arm);
-    if (!n.has) continue;
+    const auto n = neighbour(node, arm);
+    if (!n.has()) continue;
     double a = 0, b = 0;
     for (const Term& t : surface_.derivation(surface_.alongJet(h, 1).vector)) {
       const double rounded = std::round(t.factor * 1048576) / 1048576;
@@ -197,8 +160,8 @@ void DerivativeRules::atHub(const CodedSite& site, const StoredVector& s, Terms&
     }
     xx += a * a, xy += a * b, yy += b * b;
     const double out = 1 / n.distance;
-    addTerms(x, n.value, a * out), x.push_back({site.first, -a * out});
-    addTerms(y, n.value, b * out), y.push_back({site.first, -b * out});
+    addTerms(x, n.value.position, a * out), x.push_back({site.first, -a * out});
+    addTerms(y, n.value.position, b * out), y.push_back({site.first, -b * out});
   }
   const double d = xx * yy - xy * xy;
   if (!(d > 1e-3)) return;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/hierarchy.hpp"
+#include "surface/line_prediction.hpp"
 
 namespace sweepface::codec {
 
@@ -29,9 +30,6 @@ void addTerms(List& terms, std::span<const Term> more, double factor) {
   for (const Term& t : more) terms.push_back({t.vector, factor * t.factor});
 }
 
-/// The half-arc that leaves a node opposite to `h`, straight on; -1 if there is none.
-HalfArc oppositeOf(const Wireframe& w, const Connectivity& c, HalfArc h);
-
 /// Predicts stored derivatives from positions and earlier derivatives, by the rules that the
 /// surface applies to derivatives that are not stored (docs/file-format-vectors.md, Prediction).
 class DerivativeRules {
@@ -47,16 +45,13 @@ class DerivativeRules {
   // The stored derivative of a node, or -1.
   Index derivative(Index node, int i, int j) const;
   bool isSite(Index node) const { return siteOf_[node] >= 0; }
-  struct Neighbour {
-    bool has = false;
-    double distance = 0;
+  struct Reached {
     Index node = -1;
     HalfArc back = -1;
-    FewTerms value;
+    FewTerms position;
   };
-  Neighbour neighbour(Index node, int arm) const;
-  // The neighbours along an axis, ahead and behind.
-  std::array<Neighbour, 2> neighbours(Index node, int axis) const {
+  LineNeighbour<Reached> neighbour(Index node, int arm) const;
+  LineNeighbours<Reached> neighbours(Index node, int axis) const {
     return {neighbour(node, axis), neighbour(node, axis + 2)};
   }
   // The position of a site, or of a T-node by interpolation along the line that it lies on.
@@ -68,15 +63,15 @@ class DerivativeRules {
   void atCrossing(const CodedSite& site, const StoredVector& s, Terms& terms) const;
   // Derivative 1 or 2 of the polynomial through the neighbours on a line and the known values at
   // the node.
-  void along(const std::array<Neighbour, 2>& at, Index own, Index slope, int order,
+  void along(const LineNeighbours<Reached>& at, Index own, Index slope, int order,
              Terms& terms) const;
   // ∂x∂y: the change of the slope along x from neighbour to neighbour along y, and vice versa; the
   // mean of the two where both are known.
   void mixed(Index node, Terms& terms) const;
   // The change of the slope along axis d along the other axis.
-  bool changeAcross(Index node, const std::array<Neighbour, 2>& at, int d, FewTerms& terms) const;
+  bool changeAcross(Index node, const LineNeighbours<Reached>& at, int d, FewTerms& terms) const;
   // The slope at a neighbour towards the right of the direction of travel, or towards the left.
-  bool slopeAcross(const Neighbour& n, bool right, FewTerms& terms) const;
+  bool slopeAcross(const Reached& n, bool right, FewTerms& terms) const;
   // First derivatives A and B at an irregular point: least squares over the slopes of its spokes,
   // which are combinations of A and B.
   void atHub(const CodedSite& site, const StoredVector& s, Terms& terms) const;

@@ -113,7 +113,7 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
     codeCarries(out, bones, form.carries);
     vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
                  partnerOf(packing, lattice, poses.coefficients, pose),
-                 movedIn(like, lattice, poses.coefficients));
+                 hintsOf(like, lattice, poses.coefficients));
   }
   return coder.finish();
 }
@@ -139,38 +139,20 @@ std::string exactVectors(const Rig& rig, const Poses& poses) {
   return out.take();
 }
 
-std::string looseVertices(const std::vector<Vec3>& loose) {
-  Writer out;
-  writeVectors(out, loose, Precision::exact);
-  return out.take();
-}
-
 bool movesLoose(const Target& target) {
   return std::ranges::any_of(target.looseDifference, [](const Vec3& v) { return v != Vec3{}; });
 }
 
-std::string drift(const std::vector<Target>& targets) {
-  Writer out;
+void writeDrift(Writer& out, const std::vector<Target>& targets) {
   for (const Target& target : targets) writeVectors(out, target.looseDifference, Precision::exact);
-  return out.take();
 }
 
-std::string scene(std::string_view glb) {
-  Writer out;
-  out.text(glb);
-  return out.take();
-}
-
-std::string thingNames(const Names& names) {
-  Writer out;
-  writeNames(out, names);
-  return out.take();
-}
-
-std::string turnList(const std::vector<Turn>& turns) {
-  Writer out;
-  writeTurns(out, turns);
-  return out.take();
+/// Writes a chunk of what `write(to)` writes.
+template <typename Write>
+void writeChunkOf(Writer& out, std::string_view kind, Write write) {
+  Writer to;
+  write(to);
+  writeChunk(out, kind, to.take());
 }
 
 }  // namespace
@@ -204,13 +186,17 @@ std::string encode(const Rig& rig) {
   if (const std::string exact = exactVectors(rig, poses); !exact.empty())
     writeChunk(out, "EXAC", exact);
   if (!rig.source.loose.empty()) {
-    writeChunk(out, "loos", looseVertices(rig.source.loose));
-    if (std::ranges::any_of(rig.targets, movesLoose)) writeChunk(out, "drif", drift(rig.targets));
+    writeChunkOf(out, "loos",
+                 [&](Writer& to) { writeVectors(to, rig.source.loose, Precision::exact); });
+    if (std::ranges::any_of(rig.targets, movesLoose))
+      writeChunkOf(out, "drif", [&](Writer& to) { writeDrift(to, rig.targets); });
   }
   writeSource(out, rig, mirror, packing.textureBits);
-  if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));
-  if (hasNames(rig.names)) writeChunk(out, "name", thingNames(rig.names));
-  if (const auto turns = storedTurns(rig); !turns.empty()) writeChunk(out, "turn", turnList(turns));
+  if (!rig.scene.empty()) writeChunkOf(out, "scen", [&](Writer& to) { to.text(rig.scene); });
+  if (hasNames(rig.names))
+    writeChunkOf(out, "name", [&](Writer& to) { writeNames(to, rig.names); });
+  if (const auto turns = storedTurns(rig); !turns.empty())
+    writeChunkOf(out, "turn", [&](Writer& to) { writeTurns(to, turns); });
   writeChunk(out, "END ", {});
   return out.take();
 }

@@ -33,14 +33,13 @@ class HierarchyBuilder {
   }
 
  private:
-  using Terms = std::vector<Term>;
   using Link = Lines::Link;
 
   // Vectors that many vertices depend on get finer steps, since an error there would have to be
   // corrected at all of those vertices.
   double finer(Index vector, Index span) const {
     const StoredVector& s = surface_.stored(vector);
-    if (s.i + s.j > 0) return 3;
+    if (!s.isPosition()) return 3;
     return span == 0    ? 2
            : span <= 2  ? 1
            : span <= 4  ? 1.25
@@ -60,7 +59,7 @@ class HierarchyBuilder {
     all_.reserve(static_cast<std::size_t>(lines_.siteCount()));
     for (Index v = 0; v < surface_.storedCount(); ++v) {
       const StoredVector& s = surface_.stored(v);
-      if (s.i == 0 && s.j == 0) {
+      if (s.isPosition()) {
         Candidate& c = all_.emplace_back();
         c.site.node = s.node;
         c.site.first = v;
@@ -199,8 +198,7 @@ class HierarchyBuilder {
   bool isRemovable(Index s) const {
     const Candidate& c = all_[s];
     if (!lines_.isLeft(s) || c_.kinds[c.site.node] != NodeKind::crossing) return false;
-    const Star& star = c_.stars[c.site.node];
-    return star.closed ? star.arms.size() == 4 : star.sectors.size() == 2;
+    return linesThrough(c_.stars[c.site.node]) > 0;
   }
 
   void takeOut() {

@@ -6,7 +6,6 @@
 #include "codec/bones.hpp"
 #include "codec/kriging.hpp"
 #include "codec/limits.hpp"
-#include "codec/two.hpp"
 
 namespace sweepface::codec {
 
@@ -60,6 +59,8 @@ namespace {
 // The same vector in four poses, so that one pass over the terms serves all of them: the four x,
 // then y, then z.
 constexpr std::size_t kAbreast = 4;
+/// For SIMD on any processor; each lane computes exactly what a scalar would.
+using Two [[gnu::vector_size(16)]] = double;
 using Abreast = std::array<Two, 6>;
 
 // Compilers allow a SIMD vector to be accessed through its element type.

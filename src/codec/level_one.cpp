@@ -2,6 +2,7 @@
 
 #include "codec/edge_map.hpp"
 #include "codec/fan_walk.hpp"
+#include "surface/vertex_numbers.hpp"
 
 namespace sweepface::codec {
 
@@ -9,14 +10,8 @@ namespace {
 
 class Numbering {
  public:
-  explicit Numbering(const Surface& surface) : surface_(surface), w_(surface.wireframe()) {
-    std::vector<Index> ofPoint(w_.points, -1);
-    for (const Node& node : w_.nodes) {
-      Index vertex = node.point >= 0 ? ofPoint[node.point] : -1;
-      if (vertex < 0) vertex = count_++;
-      if (node.point >= 0) ofPoint[node.point] = vertex;
-      node_.push_back(vertex);
-    }
+  explicit Numbering(const Surface& surface)
+      : surface_(surface), w_(surface.wireframe()), nodes_(w_), count_(nodes_.count) {
     for (const Arc& arc : w_.arcs) {
       arc_.push_back(count_);
       if (!arc.collapsed) count_ += arc.edges - 1;
@@ -47,7 +42,7 @@ class Numbering {
   void fillSide(Index p, int s, Index* at, std::ptrdiff_t stride) const {
     for (const HalfArc h : w_.side(p, s)) {
       const Arc& arc = w_.arcs[arcOf(h)];
-      const Index first = node_[w_.start(h)];
+      const Index first = nodes_.ofNode[w_.start(h)];
       *at = first;
       at += stride;
       for (Index step = 1; step < arc.edges; ++step, at += stride)
@@ -57,8 +52,9 @@ class Numbering {
 
   const Surface& surface_;
   const Wireframe& w_;
-  Index count_ = 0;
-  std::vector<Index> node_, arc_, patch_;
+  VertexNumbers nodes_;
+  Index count_;
+  std::vector<Index> arc_, patch_;
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ Likeness Likenesses::of(Index pose) const {
     }
   if (best.pose < 0) return best;
   std::int64_t agreement = 0;
-  for (const Moved& m : movedIn(best, lattice_, poses_))
+  for (const Moved& m : hintsOf(best, lattice_, poses_))
     for (int a = 0; a < 3; ++a)
       agreement += std::clamp(m.steps[a], -2, 2) * std::clamp(poses_[pose][m.vector][a], -2, 2);
   best.negated = agreement < 0;

@@ -27,9 +27,10 @@ class Likenesses {
   std::vector<std::array<Bits, 2>> moved_;  // [poses] which vectors move, as is and mirrored
 };
 
-/// The moved vectors of a likeness; empty if there is none. Poses are Coefficients or Sparse.
+/// What a likeness tells of the vectors of a pose; empty if there is none. Poses are Coefficients
+/// or Sparse.
 template <typename Steps>
-Sparse movedIn(const Likeness& like, const Lattice& lattice, const std::vector<Steps>& poses) {
+Sparse hintsOf(const Likeness& like, const Lattice& lattice, const std::vector<Steps>& poses) {
   if (like.pose < 0) return {};
   Sparse moved = lattice.moved(poses[like.pose], like.mirrored, 0);
   if (like.negated)

@@ -40,10 +40,10 @@ constexpr std::size_t mostEntries(std::size_t bytes) {
 }
 
 /// Memory in bytes while a file is read, rounded up from measurements, of a patch with its nodes
-/// and arcs, a stored vector of a pose, a quad at level 1 with its corners, a letter of a name, and
-/// what a bone carries in a pose.
+/// and arcs, a stored vector of a pose, a quad at level 1 with its corners, a letter of a name,
+/// what a bone carries in a pose, and a ribbon that no patch has.
 inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400,
-                             kBytesALetter = 4, kBytesACarry = 128;
+                             kBytesALetter = 4, kBytesACarry = 128, kBytesARibbon = 64;
 
 /// The same for any other entry of the source's order, faces and texture. A name counts as this
 /// many letters.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "codec/derivative_rules.hpp"
-
 namespace sweepface::codec {
 
 Lines::Lines(const Surface& surface)
@@ -15,7 +13,7 @@ Lines::Lines(const Surface& surface)
   std::vector<Index> ofPoint(w.points, -1);
   for (Index v = 0; v < surface.storedCount(); ++v) {
     const StoredVector& s = surface.stored(v);
-    if (s.i + s.j > 0) continue;
+    if (!s.isPosition()) continue;
     siteOf_[s.node] = siteCount();
     sites_.emplace_back().irregular = c.kinds[s.node] == NodeKind::irregular;
     if (sites_.back().irregular) ofPoint[w.nodes[s.node].point] = siteOf_[s.node];
@@ -29,7 +27,7 @@ Lines::Lines(const Surface& surface)
     const auto [last, edges] = c.rails[h];
     links_[h] = {twin(last), w.end(last), edges, w.arcs[arcOf(h)].collapsed};
     longest_ = std::max(longest_, links_[h].distance);
-    opposite_.push_back(oppositeOf(w, c, h));
+    opposite_.push_back(c.opposite(w, h));
   }
 }
 

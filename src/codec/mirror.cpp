@@ -26,6 +26,21 @@ std::vector<Vec3> nodePositions(const Surface& surface, std::span<const Vec3> ne
   return positions;
 }
 
+// The diagonal of the box around the middle nine tenths along each axis.
+double usualSize(const std::vector<Vec3>& positions) {
+  Vec3 size;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    for (const Vec3& p : positions) places.push_back(coordinate(p, axis));
+    const auto few = std::ssize(places) / 20;
+    std::ranges::nth_element(places, places.begin() + few);
+    const double low = places[few];
+    std::ranges::nth_element(places, places.end() - 1 - few);
+    coordinate(size, axis) = *(places.end() - 1 - few) - low;
+  }
+  return norm(size);
+}
+
 // For each node, the node nearest to its image across the middle of an axis, within `reach`; the
 // first of several equally near, -1 if there is none.
 std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, const Box& box, int axis,
@@ -79,8 +94,9 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
   MirrorSeeds seeds;
   if (positions.empty()) return seeds;
   const Box box(positions);
-  constexpr double kNear = 2e-3;  // of the diagonal
-  const double reach = kNear * norm(box.size());
+  // Of the diagonal, but something small far away must not put the whole face within reach.
+  constexpr double kNear = 2e-3, kFar = 10;
+  const double reach = kNear * std::min(norm(box.size()), kFar * usualSize(positions));
   if (!(reach > 0) || !std::isfinite(reach)) return seeds;
   std::vector<Index> best;
   auto found = static_cast<std::ptrdiff_t>(positions.size() / 2);

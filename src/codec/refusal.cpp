@@ -1,5 +1,7 @@
 #include "codec/refusal.hpp"
 
+#include <utility>
+
 namespace sweepface::codec {
 
 std::string_view Refusal::advice() const {
@@ -10,8 +12,9 @@ std::string_view Refusal::advice() const {
 void Refusal::refuse(std::string_view problem) { refuseWith({problem}); }
 
 void Refusal::refuseWith(std::initializer_list<TextPart> parts) {
-  if (ok_) problem_ = joined(parts);
-  ok_ = false;
+  if (!std::exchange(ok_, false)) return;
+  problem_ = joined(parts);
+  if (problem_.ends_with('.')) problem_.pop_back();  // the advice follows
 }
 
 void Refusal::refuseNumber(const char* what, long long number) {

@@ -114,7 +114,7 @@ class WireframeCoder {
   }
 
   void codePoints() {
-    const std::vector<Index> expected = expectedPoints(w_, w_.nodes.size());
+    const std::vector<Index> expected = expectedPoints(w_);
     const auto told = [&](std::size_t n) { return whole_ ? whole_->nodes[n].point : -1; };
     bool same = true;
     for (std::size_t n = 0; n < expected.size(); ++n) same &= told(n) == expected[n];

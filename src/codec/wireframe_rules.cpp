@@ -25,7 +25,8 @@ std::vector<Index> expectedRibbons(const Wireframe& w) {
   return result;
 }
 
-std::vector<Index> expectedPoints(const Wireframe& w, std::size_t nodes) {
+std::vector<Index> expectedPoints(const Wireframe& w) {
+  const std::size_t nodes = w.nodes.size();
   UnionFind sets(nodes);
   std::vector<char> hanging(nodes, 0);
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)

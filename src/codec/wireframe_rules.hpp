@@ -38,7 +38,7 @@ std::vector<Index> expectedRibbons(const Wireframe& w);
 
 /// One point for each node, numbered in the order of nodes. Nodes joined by collapsed arcs share a
 /// point; T-nodes have none.
-std::vector<Index> expectedPoints(const Wireframe& w, std::size_t nodes);
+std::vector<Index> expectedPoints(const Wireframe& w);
 
 /// A class of how many derivatives along `axis` the lengths of a node's lines suggest: a context
 /// for what the node stores.

@@ -1,7 +1,8 @@
 #include "drawing/materials.hpp"
 
 #include <algorithm>
-#include <map>
+
+#include "io/text.hpp"
 
 namespace sweepface::drawing {
 
@@ -9,14 +10,11 @@ void addMaterials(SourceMesh& grid, const Surface& surface, const Drawing& drawi
   Polygons& faces = grid.polygons;
   const auto hasNone = [](const Drawing::Patch& patch) { return patch.material.empty(); };
   if (std::ranges::all_of(drawing.patches, hasNone)) return;
-  std::map<std::string, Index> numbers{{"", -1}};
+  io::NameIndex numbers(faces.materials);
   for (Index p = 0; p < surface.patchCount(); ++p) {
-    const std::string& name = drawing.patches[p].material;
-    const auto next = static_cast<Index>(faces.materials.size());
-    const auto [number, isNew] = numbers.try_emplace(name, next);
-    if (isNew) faces.materials.push_back(name);
     const auto quads = static_cast<std::size_t>(surface.edgesU(p) * surface.edgesV(p));
-    faces.faceMaterial.insert(faces.faceMaterial.end(), quads, number->second);
+    const Index number = numbers(drawing.patches[p].material);
+    faces.faceMaterial.insert(faces.faceMaterial.end(), quads, number);
   }
 }
 

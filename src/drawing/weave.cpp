@@ -25,9 +25,7 @@ class Weaver {
   }
 
  private:
-  using Place = TextPlace;
-
-  std::unexpected<Error> refuse(const Place& place, const std::string& what) const {
+  std::unexpected<Error> refuse(const TextPlace& place, const std::string& what) const {
     return failAt(d_, place, what);
   }
 
@@ -136,7 +134,7 @@ class Weaver {
   std::string quoted(Index patch) const { return quotedPatch(d_, patch); }
 
   Result<void> addToLoop(Index p, const std::string& reference) {
-    const Place& place = d_.patches[p].place;
+    const TextPlace& place = d_.patches[p].place;
     const HalfArc h = woven_.halfArc(reference);
     if (h < 0)
       return refuse(place, fmt::format("{} names '{}', which is no curve", quoted(p), reference));

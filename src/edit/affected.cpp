@@ -1,7 +1,5 @@
 #include "edit/affected.hpp"
 
-#include <algorithm>
-
 namespace sweepface::edit {
 
 template <typename Visit>

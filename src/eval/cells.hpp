@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include "sweepface/surface.hpp"
@@ -12,6 +13,11 @@ struct Cell {
   Index patch = 0;
   Index quad = 0;      ///< of level 1, as SourceMesh::quadCorners counts
   Index i = 0, j = 0;  ///< its column and row in the patch
+
+  /// Column and row, within the quad, of corner k of the cell as faces() goes around it.
+  std::array<Index, 2> cornerInQuad(int k, Index level) const {
+    return {i % level + (k == 1 || k == 2), j % level + (k >= 2)};
+  }
 };
 
 /// Calls `visit(cell)` for every cell, in the order of the faces.

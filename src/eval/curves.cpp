@@ -2,6 +2,7 @@
 #include "sweepface/ode.hpp"
 
 #include "surface/inward.hpp"
+#include "surface/vertex_numbers.hpp"
 
 namespace sweepface {
 namespace {
@@ -37,17 +38,10 @@ class CurveMaker {
 
   /// Nodes that share a point become one, so that their curves end at the same point.
   void addNodes() {
-    std::vector<Index> ofPoint(wires_.points, -1);
-    for (std::size_t n = 0; n < wires_.nodes.size(); ++n) {
-      const Index point = wires_.nodes[n].point;
-      Index place = point >= 0 ? ofPoint[point] : -1;
-      if (place < 0) {
-        place = addPoint(placeOf(surface_.connectivity().stars[n].arms[0]));
-        net_.nodes.push_back(place);
-        if (point >= 0) ofPoint[point] = place;
-      }
-      placeOfNode_.push_back(place);
-    }
+    placeOfNode_ = VertexNumbers(wires_).ofNode;
+    for (std::size_t n = 0; n < wires_.nodes.size(); ++n)
+      if (placeOfNode_[n] == std::ssize(net_.points))
+        net_.nodes.push_back(addPoint(placeOf(surface_.connectivity().stars[n].arms[0])));
   }
 
   Vec3 placeOf(HalfArc arm) const {

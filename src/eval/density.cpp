@@ -6,6 +6,7 @@
 
 #include "eval/sag.hpp"
 #include "eval/stitching.hpp"
+#include "ode/elementary.hpp"
 #include "surface/distances.hpp"
 
 namespace sweepface {
@@ -188,7 +189,7 @@ Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
 }  // namespace
 
 double errorOnScreen(double pixels, double distance, double fieldOfView, double height) {
-  const auto [sine, cosine] = std::pair(std::sin(fieldOfView / 2), std::cos(fieldOfView / 2));
+  const auto [sine, cosine] = ode::sineCosine(fieldOfView / 2);
   return pixels * 2 * distance * sine / cosine / height;
 }
 

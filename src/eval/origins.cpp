@@ -43,7 +43,7 @@ class Finder {
     const auto faces = grid_.faces();
     forEachCell(rig_.surface, level, [&](const Cell& cell) {
       for (int k = 0; k < 4; ++k) {
-        const Index i = cell.i % level + (k == 1 || k == 2), j = cell.j % level + (k >= 2);
+        const auto [i, j] = cell.cornerInQuad(k, level);
         place(faces[cell.face][k], cell.quad, static_cast<double>(i) / level,
               static_cast<double>(j) / level);
       }

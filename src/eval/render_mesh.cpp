@@ -183,7 +183,7 @@ RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
     std::array<Index, 4> vertices = faces[cell.face];
     if (quads.isTextured(cell.quad))
       for (int k = 0; k < 4; ++k) {
-        const Index i = cell.i % level + (k == 1 || k == 2), j = cell.j % level + (k >= 2);
+        const auto [i, j] = cell.cornerInQuad(k, level);
         vertices[k] = builder.vertex(vertices[k], quads.texcoord(cell.quad, i, level, j, level));
       }
     builder.addQuad(quads.material(cell.quad), vertices);

@@ -36,20 +36,18 @@ Index somewhatMore(Index count, double tooFar, Index most) {
 SagMeter::SagMeter(const Surface& surface, std::span<const Vec3> vectors)
     : surface_(surface),
       vectors_(vectors),
+      nodes_(surface.wireframe()),
       arcs_(surface.wireframe().arcs.size()),
-      measured_(surface.patchCount()) {
-  for (const Node& node : surface.wireframe().nodes)
-    nodes_.push_back(node.point >= 0 ? node.point : -1 - static_cast<Index>(nodes_.size()));
-}
+      measured_(surface.patchCount()) {}
 
 // Uses a numbering that tells the vertices of one patch apart.
 PatchMesh SagMeter::stitched(const Density& density, Index patch) {
   const Wireframe& w = surface_.wireframe();
-  Index next = w.points;
+  Index next = nodes_.count;
   for (int s = 0; s < 4; ++s)
     for (const HalfArc h : w.side(patch, s))
       arcs_[arcOf(h)] = std::exchange(next, next + density.arcs[arcOf(h)]);
-  return stitch(surface_, density, {nodes_, arcs_, next}, patch);
+  return stitch(surface_, density, {nodes_.ofNode, arcs_, next}, patch);
 }
 
 // To second order, no point of a triangle is further away than its edges are. An edge inside

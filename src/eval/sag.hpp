@@ -2,6 +2,8 @@
 
 #include "sweepface/eval.hpp"
 
+#include "surface/vertex_numbers.hpp"
+
 namespace sweepface {
 
 /// Refines patches until their triangles are near the surface. The two lines through the middle of
@@ -36,7 +38,7 @@ class SagMeter {
 
   const Surface& surface_;
   std::span<const Vec3> vectors_;
-  std::vector<Index> nodes_;                     // [nodes] equal for nodes at the same point
+  VertexNumbers nodes_;
   std::vector<Index> arcs_;                      // [arcs] the first vertex inside, for one patch
   std::vector<std::vector<Measured>> measured_;  // [patches]
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "surface/sorting.hpp"
+#include "surface/vertex_numbers.hpp"
 
 namespace sweepface {
 
@@ -16,9 +17,7 @@ Index sideSegments(const Wireframe& w, const Density& density, Index patch, int 
 }
 
 std::int64_t vertexCountOf(const Wireframe& w, const Density& density) {
-  std::vector<char> seen(w.points, 0);
-  std::int64_t count = 0;
-  for (const Node& node : w.nodes) count += node.point < 0 || !std::exchange(seen[node.point], 1);
+  std::int64_t count = VertexNumbers(w).count;
   for (std::size_t a = 0; a < w.arcs.size(); ++a)
     if (!w.arcs[a].collapsed) count += density.arcs[a] - 1;
   for (const auto& [columns, rows] : density.patches)

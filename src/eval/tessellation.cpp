@@ -3,6 +3,7 @@
 #include "sweepface/eval.hpp"
 
 #include "eval/stitching.hpp"
+#include "surface/vertex_numbers.hpp"
 
 namespace sweepface {
 
@@ -70,26 +71,20 @@ void Tessellation::placeAll() {
 void Tessellation::placeArcs() {
   const Wireframe& w = surface_->wireframe();
   const Connectivity& c = surface_->connectivity();
-  nodeVertex_.assign(w.nodes.size(), -1);
-  std::vector<Index> ofPoint(w.points, -1);
+  nodeVertex_ = VertexNumbers(w).ofNode;
   const auto add = [&](Index arc, Index step) {
     const HalfArc h = c.patchOf[2 * arc] >= 0 ? 2 * arc : 2 * arc + 1;
     const double t = static_cast<double>(step) * w.arcs[arc].edges / density_.arcs[arc];
     sites_.push_back(surface_->siteOnArc(h, h & 1 ? w.arcs[arc].edges - t : t));
     arcWeights_.push_back(surface_->arcWeights(arc, t));
-    return vertexCount() - 1;
   };
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
-    const Index point = w.nodes[n].point;
-    Index& vertex = point >= 0 ? ofPoint[point] : nodeVertex_[n];
-    if (vertex < 0) {
-      const auto& arms = c.stars[n].arms;
-      const auto open =
-          std::ranges::find_if(arms, [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
-      const HalfArc arm = open == arms.end() ? arms[0] : *open;
-      vertex = add(arcOf(arm), arm & 1 ? density_.arcs[arcOf(arm)] : 0);
-    }
-    nodeVertex_[n] = vertex;
+    if (nodeVertex_[n] < vertexCount()) continue;
+    const auto& arms = c.stars[n].arms;
+    const auto open =
+        std::ranges::find_if(arms, [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
+    const HalfArc arm = open == arms.end() ? arms[0] : *open;
+    add(arcOf(arm), arm & 1 ? density_.arcs[arcOf(arm)] : 0);
   }
   for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
     arcVertex_.push_back(vertexCount());

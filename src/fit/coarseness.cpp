@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "fit/median.hpp"
 #include "fit/vertex_normals.hpp"
+#include "mesh/median.hpp"
 
 namespace sweepface {
 

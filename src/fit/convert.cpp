@@ -14,7 +14,6 @@
 #include "fit/check_source.hpp"
 #include "fit/defaults.hpp"
 #include "fit/doubts.hpp"
-#include "fit/normals_out_of_reach.hpp"
 #include "fit/quantise.hpp"
 
 namespace sweepface {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -12,8 +13,9 @@
 
 #include "fit/coarseness.hpp"
 #include "fit/listed.hpp"
-#include "fit/median.hpp"
+#include "io/text.hpp"
 #include "mesh/each_edge.hpp"
+#include "mesh/median.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -39,7 +41,7 @@ struct Outline {
   std::vector<Index> vertices;
 
   explicit Outline(const Polygons& faces) : vertices(faces.corners) {
-    eachEdge(faces, [&](Index a, Index b) { edges.push_back(std::minmax({a, b})); });
+    eachEdge(faces, [&](Index a, Index b, Index) { edges.push_back(std::minmax({a, b})); });
     sortOut(edges);
     sortOut(vertices);
   }
@@ -136,26 +138,27 @@ TargetDoubt doubtAbout(const Outline& outline, const std::vector<Vec3>& neutral,
   return {};
 }
 
-/// Empty if a surface is smooth between the vertices that it follows.
-std::string doubtBetweenVertices(const PolygonMesh& neutral, double tolerance) {
+/// Empty if a surface is smooth between the vertices that it follows. Beyond a tolerance of `most`,
+/// finer forms are lost.
+std::string doubtBetweenVertices(const PolygonMesh& neutral, double tolerance, double most) {
   if (neutral.polygons.faceCount() < kManyFaces) return {};
   const Coarseness coarse = coarsenessOf(neutral);
   const double smooth = kSmoothly * coarse.height;
   if (!(coarse.degrees > kLean && tolerance < smooth)) return {};
   const double digit = std::pow(10, std::floor(std::log10(smooth)));
+  const double better = std::ceil(smooth / digit) * digit;
   return fmt::format(
       "The mesh is coarse for its shape, as if it were made to be subdivided: half of its faces "
       "lean {:.2g} degrees or more from the normals of their vertices. A surface within {:.3g} of "
-      "every vertex may look creased between them. Give a higher level of --subdivide if it is a "
-      "cage; otherwise compare pictures, and try a tolerance of {:.3g}.",
-      coarse.degrees, tolerance, std::ceil(smooth / digit) * digit);
+      "every vertex may look creased between them. If it is a cage, give --subdivide, or a higher "
+      "level of it; otherwise compare pictures{}.",
+      coarse.degrees, tolerance,
+      better < most ? fmt::format(", and try a tolerance of {:.3g}", better) : "");
 }
 
-bool isCalledNeutral(std::string name) {
-  std::ranges::transform(name, name.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  });
-  return name == "neutral" || name == "basis" || name == "rest";
+bool isCalledNeutral(std::string_view name) {
+  constexpr std::array names{"neutral", "basis", "rest"};
+  return std::ranges::any_of(names, [&](const char* each) { return io::sameLetters(name, each); });
 }
 
 }  // namespace
@@ -166,13 +169,14 @@ std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance) {
   const std::vector<Vec3>& neutral = source.neutral.positions;
   std::vector<std::string> sentences;
   const double size = diagonal(source.neutral), edge = medianEdge(outline, neutral);
-  if (tolerance > kOfSize * size || (edge > 0 && tolerance > kOfEdges * edge))
+  const double most = std::min(kOfSize * size, edge > 0 ? kOfEdges * edge : HUGE_VAL);
+  if (tolerance > most)
     sentences.push_back(fmt::format(
         "The tolerance, {:.3g}, is {:.2g} % of the mesh's size and {:.2g} times as long as most "
         "edges, so that finer forms are lost; give a finer one if it was meant in other units, or "
         "if some part makes the mesh look large.",
         tolerance, 100 * tolerance / size, edge > 0 ? tolerance / edge : 0));
-  if (auto sentence = doubtBetweenVertices(source.neutral, tolerance); !sentence.empty())
+  if (auto sentence = doubtBetweenVertices(source.neutral, tolerance, most); !sentence.empty())
     sentences.push_back(std::move(sentence));
 
   std::vector<TargetDoubt> doubts(source.targets.size());

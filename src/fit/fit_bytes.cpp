@@ -7,7 +7,8 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 
-#include "fit/normals_out_of_reach.hpp"
+#include "fit/check_source.hpp"
+#include "fit/defaults.hpp"
 
 namespace sweepface {
 
@@ -66,6 +67,9 @@ Result<std::size_t> bytesOf(Rig rig, const FinishRig& finish) {
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const FinishRig& finish) {
   options.pack = true;
+  if (auto ok = checkFromZero(options.tolerance, "the tolerance"); !ok)
+    return std::unexpected(ok.error());
+  if (auto ok = checkSource(source); !ok) return std::unexpected(ok.error());
   const bool isFinest = options.tolerance > 0;
   if (!isFinest) options.tolerance = 0.0005 * diagonal(source.neutral);
   std::optional<Conversion> best;

@@ -15,8 +15,7 @@ std::vector<double> keptMovement(const Rig& rig, const MeshRig& source) {
   const std::vector<Vec3>& neutral = source.neutral.positions;
   std::vector<double> kept(rig.targets.size(), 1);
   parallelFor(std::size_t{0}, kept.size(), [&](std::size_t k) {
-    Weights weights(kept.size(), 0.0);
-    weights[k] = 1;
+    const Weights weights = rig.weightsOf(static_cast<Index>(k) + 1);
     const std::vector<Vec3> moved = sourcePositions(rig, grid, blend(rig, weights), weights);
     double whole = 0, here = 0;
     for (const Index v : source.neutral.polygons.corners) {

@@ -1,7 +1,6 @@
 #include "gltf/hard_normals.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace sweepface::gltf {

@@ -27,7 +27,7 @@ inline Json* find(Json& object, std::string_view key) {
   return found == object.end() ? nullptr : &*found;
 }
 
-/// A top-level list of a glTF, e.g. "accessors"; empty if there is none.
+/// A list of an object of a glTF, e.g. "accessors"; empty if there is none.
 const Json& listOf(const Json& gltf, std::string_view key);
 
 /// Reads an object of a glTF. The first fault sticks: from then on everything reads as absent or

@@ -1,6 +1,5 @@
 #include "gltf/meshopt.hpp"
 
-#include <array>
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 

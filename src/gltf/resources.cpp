@@ -1,7 +1,6 @@
 #include "gltf/resources.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <optional>
 
@@ -66,15 +65,7 @@ std::optional<std::string> base64Decoded(std::string_view text) {
   return bytes;
 }
 
-bool startsWithoutCase(std::string_view text, std::string_view start) {
-  return text.size() >= start.size() &&
-         std::equal(start.begin(), start.end(), text.begin(), [](char a, char b) {
-           return std::tolower(static_cast<unsigned char>(a)) ==
-                  std::tolower(static_cast<unsigned char>(b));
-         });
-}
-
-bool isData(std::string_view uri) { return startsWithoutCase(uri, "data:"); }
+bool isData(std::string_view uri) { return io::sameLetters(uri.substr(0, 5), "data:"); }
 
 /// data:[<type>][;parameters][;base64],<data>
 Result<Resource> decodeData(std::string_view uri) {

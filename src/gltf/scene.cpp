@@ -1,7 +1,6 @@
 #include "gltf/scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <map>
 #include <set>

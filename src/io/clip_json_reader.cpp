@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
@@ -17,7 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 const Json* member(const Json& object, std::string_view key) {
-  if (!object.is_object()) return nullptr;
   const auto found = object.find(key);
   return found == object.end() ? nullptr : &*found;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -49,20 +48,36 @@ inline bool isTooDeep(std::string_view text, int most) {
   return depth > most;
 }
 
-/// A parser callback that finds keys that occur twice in an object; the parser silently takes the
-/// last.
-class TwiceNamed {
+/// Finds keys that occur twice in an object; a parser silently takes the last. (As the callback of
+/// a parser it would take time in proportion to the square of a list's length.)
+class TwiceNamed : public nlohmann::json_sax<nlohmann::json> {
  public:
-  bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
-    using Event = nlohmann::json::parse_event_t;
-    if (event == Event::object_start) open_.emplace_back();
-    if (event == Event::object_end) open_.pop_back();
-    if (event == Event::key && !open_.back().insert(value.get<std::string>()).second)
-      key = value.get<std::string>();
+  std::optional<std::string> found;  ///< the last such key
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool start_object(std::size_t) override {
+    open_.emplace_back();
     return true;
   }
-
-  std::optional<std::string> key;  ///< the last such key
+  bool end_object() override {
+    open_.pop_back();
+    return true;
+  }
+  bool key(string_t& name) override {
+    if (!open_.back().insert(name).second) found = name;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override {
+    return false;
+  }
 
  private:
   std::vector<std::set<std::string>> open_;
@@ -88,12 +103,13 @@ inline std::string whereNoJson(std::string_view text, std::size_t byte) {
 inline Result<nlohmann::json> parseJson(std::string_view text, std::string_view name) {
   if (isUtf16(text)) return fail(fmt::format("{} is a text in UTF-16; save it in UTF-8.", name));
   if (isTooDeep(text, 64)) return fail(fmt::format("{} is nested too deeply.", name));
-  TwiceNamed twice;
   try {
-    nlohmann::json json = nlohmann::json::parse(text.begin(), text.end(), std::ref(twice));
-    if (twice.key)
+    nlohmann::json json = nlohmann::json::parse(text);
+    TwiceNamed twice;
+    nlohmann::json::sax_parse(text, &twice);
+    if (twice.found)
       return fail(
-          fmt::format("{} has the key '{}' twice in one object; keep one.", name, *twice.key));
+          fmt::format("{} has the key '{}' twice in one object; keep one.", name, *twice.found));
     return json;
   } catch (const nlohmann::json::parse_error& error) {
     return fail(fmt::format("{}, {}", name, whereNoJson(text, error.byte)));

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <map>
 
 #include "sweepface/clip.hpp"
@@ -85,7 +84,7 @@ Result<std::vector<MappedColumn>> mappedColumns(Clip& clip, const NameMap& map) 
   }
   if (!match.unmatched.empty())
     clip.warnings.push_back(
-        fmt::format("{}: the clip has no {}.", map.called, fmt::join(match.unmatched, ", ")));
+        fmt::format("{}: the clip has no {}.", map.called, io::fewOf(match.unmatched, 6)));
   std::vector<MappedColumn> columns;
   for (std::size_t c = 0; c < clip.names.size(); ++c) {
     if (mapped[c] >= 0) continue;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "sweepface/region_file.hpp"
 
 #include "codec/utf8.hpp"

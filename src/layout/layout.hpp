@@ -40,8 +40,6 @@ class Layout {
   /// costs files nothing. Puts `patches` in that order and turns them to keep ribbons short.
   MeshWireframe wireframe(std::vector<GridPatch>& patches) const;
 
-  /// Marks the line from `vertex` through arm `arm` up to the first line it meets.
-  void trace(Index vertex, int arm);
   /// Cuts a patch along the grid line through column i (alongV) or row i.
   void split(const GridPatch& patch, bool alongV, Index i);
   /// Extends the line that ends at a T-vertex through the patch beyond it.
@@ -54,17 +52,19 @@ class Layout {
   /// Irregular vertices, crossings and boundary vertices where a line ends; not T-vertices.
   bool isFull(Index vertex) const;
   bool isRegular(Index vertex) const;
-  Index armCount(Index vertex) const {
-    return static_cast<Index>(sectors(vertex).size()) + boundary_[vertex];
-  }
   /// Whether a grid line through a regular vertex passes from an edge to one `ratio` times as long.
   bool isUneven(Index vertex, std::span<const Vec3> positions, double ratio) const;
   /// The next vertex beyond `vertex` on the grid line from `neighbour` through it, or -1.
   Index beyond(Index vertex, Index neighbour) const;
 
  private:
+  /// Marks the line from `vertex` through arm `arm` up to the first line it meets.
+  void trace(Index vertex, int arm);
   std::span<const HalfEdge> sectors(Index v) const {
     return {ring_.data() + ringStart_[v], ring_.data() + ringStart_[v + 1]};
+  }
+  Index armCount(Index vertex) const {
+    return static_cast<Index>(sectors(vertex).size()) + boundary_[vertex];
   }
   HalfEdge arm(Index vertex,
                int k) const;  // an outgoing half-edge, or the incoming one of a boundary

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <unordered_map>
 
 #include "sweepface/box.hpp"
 
+#include "mesh/median.hpp"
 #include "surface/union_find.hpp"
 
 namespace sweepface {
@@ -66,10 +66,7 @@ double medianEdge(const GridMesh& mesh, const std::vector<Vec3>& points) {
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h)
     if (!mesh.collapsed[h])
       lengths.push_back(norm(points[mesh.point[mesh.to(h)]] - points[mesh.point[mesh.from(h)]]));
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::ranges::nth_element(lengths, middle);
-  return *middle;
+  return median(std::move(lengths));
 }
 
 // The image of each point across the best of the three planes; empty if most points have none.

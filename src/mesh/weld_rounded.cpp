@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
+#include <unsupported/Eigen/BVH>
 
 #include "mesh/each_edge.hpp"
 #include "mesh/shared_edges.hpp"
@@ -17,7 +16,7 @@ namespace {
 /// [vertices] The length of the shortest edge at each that is above `least`, or `most` if smaller.
 std::vector<double> shortestEdges(const PolygonMesh& mesh, double least, double most) {
   std::vector<double> shortest(mesh.positions.size(), most);
-  eachEdge(mesh.polygons, [&](Index a, Index b) {
+  eachEdge(mesh.polygons, [&](Index a, Index b, Index) {
     const double length = norm(mesh.positions[a] - mesh.positions[b]);
     if (length > least)
       for (const Index v : {a, b}) shortest[v] = std::min(shortest[v], length);
@@ -53,30 +52,41 @@ class Neighbours {
   /// Groups of `vertices` that are near each other, directly or through others.
   UnionFind sets(const std::vector<Index>& vertices) const {
     UnionFind sets(rig_.neutral.positions.size());
-    double size = 0;
-    for (const Index v : vertices) size = std::max(size, allowed_[v]);
-    if (!(size > 0)) size = 1;  // only vertices at the same place are near
-    std::map<Cell, std::vector<Index>> cells;
-    for (const Index v : vertices) {
-      const Cell here = cellOf(v, size);
-      for (double x : {-1, 0, 1})
-        for (double y : {-1, 0, 1})
-          for (double z : {-1, 0, 1})
-            if (const auto there = cells.find({here[0] + x, here[1] + y, here[2] + z});
-                there != cells.end())
-              for (const Index w : there->second)
-                if (areNear(v, w)) sets.join(v, w);
-      cells[here].push_back(v);
+    std::vector<Box> places;
+    for (const Index v : vertices) places.emplace_back(placeOf(v));
+    const Eigen::KdBVH<double, 3, Index> tree(vertices.begin(), vertices.end(), places.begin(),
+                                              places.end());
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      Ball ball{*this, sets, vertices[k], places[k].min()};
+      Eigen::BVIntersect(tree, ball);
     }
     return sets;
   }
 
  private:
-  using Cell = std::array<double, 3>;
+  using Box = Eigen::AlignedBox3d;
 
-  /// By the mean over all poses, no two of which have the same weight: vertices near each other in
-  /// all poses are near there, and those that one pose separates are not.
-  Cell cellOf(Index v, double size) const {
+  /// The search for the neighbours of a vertex, as Eigen's tree asks for it. Of two vertices that
+  /// are near each other the one with shorter edges finds the other, so no ball is large for all.
+  struct Ball {
+    const Neighbours& neighbours;
+    UnionFind& sets;
+    Index vertex;
+    Eigen::Vector3d centre;
+
+    bool intersectVolume(const Box& box) const {
+      constexpr double kRounding = 1 + 1e-6;  // of means
+      return box.exteriorDistance(centre) <= kRounding * neighbours.allowed_[vertex];
+    }
+    bool intersectObject(Index other) const {
+      if (neighbours.areNear(vertex, other)) sets.join(vertex, other);
+      return false;  // go on
+    }
+  };
+
+  /// The mean over all poses, no two of which have the same weight: vertices near each other in all
+  /// poses are near there, and those that one pose separates are not.
+  Eigen::Vector3d placeOf(Index v) const {
     double sum = 1, share = 0;
     Vec3 mean = rig_.neutral.positions[v];
     for (const MeshTarget& target : rig_.targets) {
@@ -84,22 +94,27 @@ class Neighbours {
       mean += (1 + share) * target.positions[v];
       sum += 1 + share;
     }
-    const double cells = 1 / (sum * size);
-    return {std::floor(mean.x * cells), std::floor(mean.y * cells), std::floor(mean.z * cells)};
+    return Eigen::Vector3d(mean.x, mean.y, mean.z) / sum;
   }
 
   const MeshRig& rig_;
   std::vector<double> allowed_;  // [vertices]
 };
 
-/// The edges, as (from, to), that no face has in the other direction.
-std::vector<std::pair<Index, Index>> openEdges(const Polygons& faces,
-                                               const std::vector<Index>& first) {
-  std::vector<std::pair<Index, Index>> edges, open;
-  eachEdge(faces, [&](Index a, Index b) { edges.emplace_back(first[a], first[b]); });
-  std::ranges::sort(edges);
-  for (const auto& [from, to] : edges)
-    if (!std::ranges::binary_search(edges, std::pair(to, from))) open.emplace_back(from, to);
+struct OpenEdge {
+  Index from, to, face;
+};
+
+/// The edges that no face has in the other direction.
+std::vector<OpenEdge> openEdges(const Polygons& faces, const std::vector<Index>& first) {
+  const auto endsOf = [](const OpenEdge& edge) { return std::pair(edge.from, edge.to); };
+  std::vector<OpenEdge> edges, open;
+  eachEdge(faces,
+           [&](Index a, Index b, Index face) { edges.push_back({first[a], first[b], face}); });
+  std::ranges::sort(edges, {}, endsOf);
+  for (const OpenEdge& edge : edges)
+    if (!std::ranges::binary_search(edges, std::pair(edge.to, edge.from), {}, endsOf))
+      open.push_back(edge);
   return open;
 }
 
@@ -132,35 +147,39 @@ std::vector<char> notPoints(const Polygons& faces, const Neighbours& neighbours,
 void closePoints(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
   auto open = openEdges(faces, firstOf(sets));
   std::erase_if(open,
-                [&](const auto& ends) { return !neighbours.areNear(ends.first, ends.second); });
+                [&](const OpenEdge& edge) { return !neighbours.areNear(edge.from, edge.to); });
   if (open.empty()) return;
   UnionFind closed = sets;
-  for (const auto& [from, to] : open) closed.join(from, to);
+  for (const OpenEdge& edge : open) closed.join(edge.from, edge.to);
   const std::vector<char> bad = notPoints(faces, neighbours, sets, closed);
-  for (const auto& [from, to] : open)
-    if (!bad[closed.find(from)]) sets.join(from, to);
+  for (const OpenEdge& edge : open)
+    if (!bad[closed.find(edge.from)]) sets.join(edge.from, edge.to);
 }
 
-/// Joins open edges that pair up once near vertices count as one; what merely touches stays apart.
-void closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
+/// Joins open edges that pair up once near vertices count as one; what merely touches stays apart,
+/// and so do two sides of one face, which may be a narrow card. Returns the widest gap.
+double closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
   const auto open = openEdges(faces, firstOf(sets));
+  double widest = 0;
   std::vector<Index> ends;
-  for (const auto& [from, to] : open) ends.insert(ends.end(), {from, to});
+  for (const OpenEdge& edge : open) ends.insert(ends.end(), {edge.from, edge.to});
   std::ranges::sort(ends);
   ends.erase(std::ranges::unique(ends).begin(), ends.end());
   UnionFind near = neighbours.sets(ends);
   std::vector<EdgeSide> sides;
   for (Index k = 0; k < std::ssize(open); ++k)
-    if (const Index a = near.find(open[k].first), b = near.find(open[k].second); a != b)
+    if (const Index a = near.find(open[k].from), b = near.find(open[k].to); a != b)
       sides.emplace_back(a, b, k);
   eachSharedEdge(sides, [&](std::span<const EdgeSide> edge) {
     if (edge.size() != 2) return;
-    const auto [a, b] = open[edge[0].at];
-    const auto [c, d] = open[edge[1].at];
-    if (!neighbours.areNear(a, d) || !neighbours.areNear(b, c)) return;
+    const auto [a, b, face] = open[edge[0].at];
+    const auto [c, d, other] = open[edge[1].at];
+    if (face == other || !neighbours.areNear(a, d) || !neighbours.areNear(b, c)) return;
+    widest = std::max({widest, neighbours.apart(a, d), neighbours.apart(b, c)});
     sets.join(a, d);
     sets.join(b, c);
   });
+  return widest;
 }
 
 UnionFind setsOf(const std::vector<Index>& first) {
@@ -186,13 +205,11 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
 OpenSeams openSeams(const MeshRig& rig, double within, const std::vector<Index>& first) {
   const Neighbours neighbours(rig, within, kGapOfEdges);
   UnionFind sets = setsOf(first);
-  closeSlits(rig.neutral.polygons, neighbours, sets);
   OpenSeams seams;
+  seams.widest = closeSlits(rig.neutral.polygons, neighbours, sets);
   for (Index v = 0; v < std::ssize(first); ++v)
-    if (const Index other = sets.find(v); first[v] == v && other != v) {
+    if (const Index other = sets.find(v); first[v] == v && other != v)
       if (seams.vertices++ == 0) seams.one = v, seams.other = other;
-      seams.widest = std::max(seams.widest, neighbours.apart(v, other));
-    }
   return seams;
 }
 

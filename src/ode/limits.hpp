@@ -18,7 +18,7 @@ constexpr int gridSteps = 1024;
 
 // snprintf would be a tenth of what a browser has to load.
 inline TextPart number(double x) {
-  return x < 1e9 ? TextPart(std::lround(x)) : TextPart("more than 1000000000");
+  return x < 1e9 ? TextPart(static_cast<long>(std::ceil(x))) : TextPart("more than 1000000000");
 }
 
 /// A parameter divided by the leading one and rescaled from lengths to u in [0,1].

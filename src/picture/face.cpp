@@ -181,7 +181,7 @@ HeatMap FaceScenes::heatMap(std::span<const double> weights, std::span<const Vec
           : fmt::format("distance from the original in its units, {} at worst", number(map.worst));
   for (const double value : values)
     map.scene.vertexColours.push_back(heatColour(map.top > 0 ? value / map.top : 0));
-  if (worst != values.end())
+  if (map.worst > 0)
     map.scene.labels.push_back(
         {map.scene.positions[worst - values.begin()], number(map.worst), kLabel});
   return map;

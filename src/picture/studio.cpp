@@ -299,8 +299,6 @@ Result<Studio> Studio::make(Scene scene, const std::atomic<bool>* cancel) {
   return Studio(std::move(parts));
 }
 
-const Scene& Studio::scene() const { return parts_->scene; }
-
 Result<Image> Studio::shoot(const Camera& camera, PictureSize size) const {
   if (auto ok = checkSize(size); !ok) return std::unexpected(ok.error());
   return Photograph(*parts_, camera, size).take();

@@ -70,7 +70,7 @@ Weights strongestOf(const Rig& rig) {
   for (std::size_t k = 0; k < weights.size(); ++k) {
     double sum = 0;
     for (Index v = 0; v < rig.surface.storedCount(); ++v)
-      if (rig.surface.stored(v).i == 0 && rig.surface.stored(v).j == 0)
+      if (rig.surface.stored(v).isPosition())
         sum += dot(rig.targets[k].difference[v], rig.targets[k].difference[v]);
     if (sum > most) most = sum, best = k;
   }

@@ -12,7 +12,7 @@ namespace {
 std::vector<Index> placesOf(const Surface& surface) {
   std::vector<Index> places;
   for (Index v = 0; v < surface.storedCount(); ++v)
-    if (surface.stored(v).i == 0 && surface.stored(v).j == 0) places.push_back(v);
+    if (surface.stored(v).isPosition()) places.push_back(v);
   return places;
 }
 

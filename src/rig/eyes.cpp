@@ -49,9 +49,8 @@ std::array<Vec3, kTerms> termsOf(const Vec3& arm) {
 
 /// A position relative to the centre of the eye; a derivative as it is.
 Vec3 armOf(const Rig& rig, const Eye& eye, Index stored) {
-  const StoredVector& what = rig.surface.stored(stored);
-  const bool isPlace = what.i == 0 && what.j == 0;
-  return isPlace ? rig.neutral[stored] - eye.centre : rig.neutral[stored];
+  const Vec3& vector = rig.neutral[stored];
+  return rig.surface.stored(stored).isPosition() ? vector - eye.centre : vector;
 }
 
 /// What turning by (x, y, 0) adds to a stored vector.
@@ -73,7 +72,7 @@ struct Fit {
 double squaresLeft(const Rig& rig, const Eye& eye, const Target& target, double x, double y) {
   double sum = 0;
   for (const Index v : eye.stored)
-    if (rig.surface.stored(v).i == 0 && rig.surface.stored(v).j == 0) {
+    if (rig.surface.stored(v).isPosition()) {
       const Vec3 d = target.difference[v] - added(rig, eye, v, x, y);
       sum += dot(d, d);
     }
@@ -89,7 +88,7 @@ Fit fitTurn(const Rig& rig, const Eye& eye, const Target& target) {
   for (int round = 0; round < 20; ++round) {
     double xx = 0, xy = 0, yy = 0, rx = 0, ry = 0;
     for (const Index v : eye.stored) {
-      if (rig.surface.stored(v).i != 0 || rig.surface.stored(v).j != 0) continue;
+      if (!rig.surface.stored(v).isPosition()) continue;
       const Vec3 here = added(rig, eye, v, fit.x, fit.y);
       const Vec3 dx = (1 / h) * (added(rig, eye, v, fit.x + h, fit.y) - here);
       const Vec3 dy = (1 / h) * (added(rig, eye, v, fit.x, fit.y + h) - here);
@@ -195,16 +194,15 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
       {"eyeLookDown" + side, "eyeLookUp" + side, "eyeLookOut" + side, "eyeLookIn" + side}, {}, {}};
   const std::array<std::array<double, 2>, 4> usual{
       {{1, 0}, {-1, 0}, {0, outwards}, {0, -outwards}}};
-  std::vector<std::string> names;
-  for (const Target& target : rig.targets) names.push_back(target.name);
-  const ClipMatch match = matchClip(shapes, names);
+  const ClipMatch match = matchClip(shapes, rig.targetNames());
+  const auto places = static_cast<double>(std::ranges::count_if(
+      eye.stored, [&](Index v) { return rig.surface.stored(v).isPosition(); }));
   for (std::size_t k = 0; k < usual.size(); ++k)
     for (const Index index : match.targets[k]) {
       Target& target = rig.targets[index];
       const Fit fit = rig.knows(target) ? fitTurn(rig, eye, target) : Fit{};
       constexpr double kMoves = 0.02, kRigid = 0.1;  // of the radius, and of the movement
-      const double count = static_cast<double>(eye.stored.size());
-      if (!(fit.moves > count * kMoves * kMoves * eye.radius * eye.radius / 9)) {
+      if (!(fit.moves > places * kMoves * kMoves * eye.radius * eye.radius)) {
         turning.looks.push_back({index, kUsualLook * usual[k][0], kUsualLook * usual[k][1]});
       } else if (fit.left <= kRigid * kRigid * fit.moves) {
         turning.looks.push_back({index, fit.x, fit.y});

@@ -77,6 +77,12 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
   return weights;
 }
 
+std::vector<std::string> Rig::targetNames() const {
+  std::vector<std::string> all;
+  for (const Target& target : targets) all.push_back(target.name);
+  return all;
+}
+
 void blend(const Rig& rig, std::span<const double> weights, std::span<Vec3> vectors) {
   const std::size_t stored = rig.neutral.size();
   for (std::size_t v = 0; v < stored; ++v) vectors[v] = rig.neutral[v];

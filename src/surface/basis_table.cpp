@@ -44,6 +44,9 @@ Result<BasisTable> BasisTable::make(const std::vector<Shape>& ribbons,
   }
   sortSmall(std::span(table.keys_));
   table.keys_.erase(std::ranges::unique(table.keys_).begin(), table.keys_.end());
+  constexpr std::size_t kMostBases = 1 << 14;  // near a resonance each takes 0.1 ms
+  if (table.keys_.size() > kMostBases)
+    return fail("the ribbons have more than ", kMostBases, " pairs of a shape and a length");
   for (const auto& key : table.keys_) {
     auto basis = SweepBasis::make(ribbons[key[0]], key[1]);
     if (!basis) {  // name a ribbon of that shape that has this length

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ode/power.hpp"
+#include "surface/line_prediction.hpp"
 
 namespace sweepface {
 
@@ -19,13 +20,6 @@ struct Across {
   void addTo(JetRows& rows, double factor) const {
     for (int k = 0; k < count; ++k) rows.add(terms[k].vector, terms[k].factor * factor);
   }
-};
-
-// Values of ∂^other across the line through a node along one of its axes, at its two neighbours.
-struct Neighbours {
-  bool has[2] = {false, false};
-  double distance[2] = {0, 0};
-  Across value[2];
 };
 
 class Predictor {
@@ -53,60 +47,30 @@ class Predictor {
     const auto own = [&](int a) {
       return d == 0 ? numbers_.own(n, a, other) : numbers_.own(n, other, a);
     };
-    const Neighbours at = neighbours(n, d, other);
+    const auto at = neighbours(n, d, other);
+    const auto add = [&](const Across& value, double factor) { value.addTo(rows_, factor); };
+    const auto addOwn = [&](int a) {
+      return [this, vector = own(a)](double factor) { rows_.add(vector, factor); };
+    };
     rows_.open(numbers_.own(n, i, j));
     if (count == 1)
-      predictFromValues(at, own(0), order);
+      derivativeFromValues(at, order, add, addOwn(0));
     else
-      predictFromSlope(at, own(0), own(1));
+      derivativeFromSlope(at, add, addOwn(0), addOwn(1));
     rows_.close();
   }
 
-  // Derivative 1 or 2 of the parabola through the node and its neighbours.
-  void predictFromValues(const Neighbours& at, Index own, int order) {
-    if (!at.has[0] || !at.has[1]) {  // at the end of a line it is taken as straight
-      if (order == 1)
-        for (int e = 0; e < 2; ++e)
-          if (at.has[e]) {
-            const double s = (e == 0 ? 1 : -1) / at.distance[e];
-            at.value[e].addTo(rows_, s);
-            rows_.add(own, -s);
-          }
-      return;
-    }
-    const double a = at.distance[0], b = at.distance[1];
-    const double s = (order == 1 ? 1 : 2) / (a * b * (a + b));
-    at.value[0].addTo(rows_, order == 1 ? b * b * s : b * s);
-    at.value[1].addTo(rows_, order == 1 ? -a * a * s : a * s);
-    rows_.add(own, order == 1 ? (a * a - b * b) * s : -(a + b) * s);
-  }
-
-  // Second derivative of the cubic through the neighbours that has the node's value and slope; at
-  // the end of a line, of the parabola through its one neighbour.
-  void predictFromSlope(const Neighbours& at, Index own, Index slope) {
-    for (int e = 0; e < 2; ++e) {
-      if (!at.has[e]) continue;
-      const double h = at.distance[e], outward = e == 0 ? 1 : -1;
-      const double weight = at.has[1 - e] ? at.distance[1 - e] / (h + at.distance[1 - e]) : 1;
-      const double s = 2 * weight / (h * h);
-      at.value[e].addTo(rows_, s);
-      rows_.add(own, -s);
-      rows_.add(slope, -outward * h * s);
-    }
-  }
-
-  Neighbours neighbours(Index n, int d, int other) const {
-    Neighbours result;
+  // Values of ∂^other across the line through a node along one of its axes.
+  LineNeighbours<Across> neighbours(Index n, int d, int other) const {
+    LineNeighbours<Across> result;
     const Star& star = c_.stars[n];
     for (int e = 0; e < 2; ++e) {
       const std::size_t arm = d + 2 * e;
       if (arm >= star.arms.size()) continue;
       const Rail rail = c_.rails[star.arms[arm]];
-      result.has[e] = true;
-      result.distance[e] = rail.edges;
-      result.value[e] = acrossAtEnd(rail, other);
+      result[e] = {static_cast<double>(rail.edges), acrossAtEnd(rail, other)};
       if ((d == 0) == (e == 1))  // the other axis points to the right of travel
-        for (Term& t : result.value[e].terms) t.factor *= signOf(other);
+        for (Term& t : result[e].value.terms) t.factor *= signOf(other);
     }
     return result;
   }

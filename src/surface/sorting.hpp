@@ -7,7 +7,7 @@
 namespace sweepface {
 
 /// Heapsort (Williams 1964): slower than std::sort, but a tenth of its code, which a browser would
-/// load once per type. It is not stable, so no two elements may compare equal.
+/// load once per type. It is not stable: equal elements end in any order.
 template <typename T, typename Before = std::less<>>
 void sortSmall(std::span<T> items, const Before& before = {}) {
   std::size_t unsorted = items.size(), heap = unsorted / 2;  // [heap, unsorted) is a heap

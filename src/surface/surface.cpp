@@ -19,12 +19,9 @@ std::vector<std::array<Index, 2>> basisKeys(const Wireframe& w, const Connectivi
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
     if (c.kinds[n] != NodeKind::hanging) continue;
     for (HalfArc arm : c.stars[n].arms) {
-      const Index stem = w.start(arm);
-      const auto& arms = c.stars[stem].arms;
-      const int on = c.opposite(
-          stem, static_cast<int>(std::find(arms.begin(), arms.end(), arm) - arms.begin()));
+      const HalfArc on = c.opposite(w, arm);
       if (on < 0) continue;
-      keys.push_back({w.arcs[arcOf(arm)].ribbon, c.rails[arm].edges + c.rails[arms[on]].edges});
+      keys.push_back({w.arcs[arcOf(arm)].ribbon, c.rails[arm].edges + c.rails[on].edges});
     }
   }
   return keys;
@@ -111,7 +108,7 @@ void Surface::settle(std::span<const Vec3> stored, std::span<Vec3> vectors) cons
 JetRef Surface::alongJet(HalfArc h, int i) const {
   const Index corner = connectivity_.cornerAt[h];
   if (corner >= 0) return corners_[9 * corner + 3 * i];
-  const HalfArc after = connectivity_.patchOf[twin(h)] < 0 ? -1 : connectivity_.next[twin(h)];
+  const HalfArc after = connectivity_.next[twin(h)];
   return corners_[9 * connectivity_.cornerAt[after] + i];
 }
 

@@ -117,12 +117,6 @@ Result<Star> starAt(const Wireframe& w, const Connectivity& c, Index node,
   return star;
 }
 
-int quarterTurns(const Star& star) {
-  int turns = 0;
-  for (Index s : star.sectors) turns += s == kStraight ? 2 : 1;
-  return turns;
-}
-
 bool hangsOnCrease(const Wireframe& w, const Star& star) {
   const auto [ahead, behind] = star.line();
   return w.arcs[arcOf(ahead)].crease || w.arcs[arcOf(behind)].crease;
@@ -141,18 +135,13 @@ Result<NodeKind> kindOf(const Wireframe& w, Index node, const Star& star, bool i
   }
   if (atPole) return NodeKind::irregular;
   if (isCreased) return NodeKind::creased;
-  const int turns = quarterTurns(star);
+  const std::size_t turns = star.sectors.size();
   return (star.closed ? turns == 4 : turns <= 2) ? NodeKind::crossing : NodeKind::irregular;
 }
 
 // The half-arc that runs straight on where `h` arrives at a T-node, or -1 where its rail ends.
 HalfArc straightOn(const Wireframe& w, const Connectivity& c, HalfArc h) {
-  const Index node = w.end(h);
-  if (c.kinds[node] != NodeKind::hanging) return -1;
-  const auto& arms = c.stars[node].arms;
-  const auto arm = std::find(arms.begin(), arms.end(), twin(h)) - arms.begin();
-  const int on = c.opposite(node, static_cast<int>(arm));
-  return on < 0 ? -1 : arms[on];
+  return c.kinds[w.end(h)] == NodeKind::hanging ? c.opposite(w, twin(h)) : -1;
 }
 
 // Adds up every rail from its end, so that the whole takes time linear in the number of arcs.
@@ -222,6 +211,13 @@ int Connectivity::opposite(Index node, int arm) const {
     turns += star.sectors[(arm + k) % sectors] == kStraight ? 2 : 1;
   }
   return -1;
+}
+
+HalfArc Connectivity::opposite(const Wireframe& wireframe, HalfArc h) const {
+  const Index node = wireframe.start(h);
+  const auto& arms = stars[node].arms;
+  const int on = opposite(node, static_cast<int>(std::ranges::find(arms, h) - arms.begin()));
+  return on < 0 ? -1 : arms[on];
 }
 
 }  // namespace sweepface

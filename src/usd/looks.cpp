@@ -1,6 +1,7 @@
 #include "usd/looks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <optional>
 
@@ -121,18 +122,27 @@ class SceneLooks {
       look.coatRoughness = 0;
   }
 
-  static const Json& transformOf(const Json& map) {
-    return extensionOf(map, "KHR_texture_transform");
+  static const Json& toldOf(const Json& map) { return extensionOf(map, "KHR_texture_transform"); }
+
+  /// Offset, scale and rotation.
+  static std::array<double, 5> transformOf(const Json& told) {
+    const auto at = [&](std::string_view key, std::size_t k, double usual) {
+      const Json& list = memberOf(told, key);
+      return list.is_array() && k < list.size() && list[k].is_number() ? list[k].get<double>()
+                                                                       : usual;
+    };
+    return {at("offset", 0, 0), at("offset", 1, 0), at("scale", 0, 1), at("scale", 1, 1),
+            numberOf(told, "rotation", 0)};
   }
 
   static bool areOfTheFirstSet(const Json& map) {
-    return numberOf(transformOf(map), "texCoord", numberOf(map, "texCoord", 0)) == 0;
+    return numberOf(toldOf(map), "texCoord", numberOf(map, "texCoord", 0)) == 0;
   }
 
   /// The rig's texture coordinates are those of the base colour, or else the first set.
   static bool areOfTheRig(const Json& map, const Json& base) {
     return areOfTheFirstSet(map) &&
-           transformOf(map) == (areOfTheFirstSet(base) ? transformOf(base) : none());
+           transformOf(toldOf(map)) == transformOf(areOfTheFirstSet(base) ? toldOf(base) : none());
   }
 
   Map mapOf(const Json& map, const Json& base) {

@@ -17,8 +17,7 @@ std::string matrixAt(const Vec3& origin) {
 std::string rotation(const Quaternion& q) { return tuple(std::array{q[3], q[0], q[1], q[2]}); }
 
 void addWeights(Text& text, const Rig& rig, const UsdOptions& options) {
-  std::vector<std::string> names;
-  for (const Target& target : rig.targets) names.push_back(target.name);
+  const std::vector<std::string> names = rig.targetNames();
   text.set("uniform token[] blendShapes", list(names));
   const Weights still(names.size());
   text.set("float[] blendShapeWeights",

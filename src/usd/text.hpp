@@ -21,7 +21,7 @@ class Text {
   void set(std::string_view property, std::string_view value, Lines metadata = {});
   /// A property without one.
   void declare(std::string_view property);
-  /// A property with other values over time; add() them, then close().
+  /// A property with other values over time; addSample() them, then close().
   void openSamples(std::string_view property);
   void addSample(std::string_view time, std::string_view value);
   /// Prims of the same depth, which are given up.

@@ -51,6 +51,10 @@ Result<void> check(const HeadTrack& head, const UsdOptions& options) {
 Result<void> check(const Rig& rig, const UsdOptions& options) {
   const io::RigOutput output{options.lod, options.grid, options.weights, options.clip};
   if (auto ok = io::checkOutput(rig, output); !ok) return ok;
+  constexpr double kMostFaces = 1e8;
+  const double lod = options.lod;
+  if (static_cast<double>(rig.surface.wireframe().quadCount()) * lod * lod > kMostFaces)
+    return fail("So fine a mesh has more than 100,000,000 faces; choose a lower level of detail.");
   if (!io::areSingle(options.weights))
     return fail("A weight is too large for the single precision of USD.");
   if (!(options.timeCodesPerSecond > 0 && options.timeCodesPerSecond < 1e9))

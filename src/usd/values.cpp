@@ -1,6 +1,5 @@
 #include "usd/values.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <fmt/format.h>

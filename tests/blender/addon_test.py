@@ -393,6 +393,17 @@ class AddOn(InBlender):
             self.assertAlmostEqual(smile.evaluate(frame), float(frame >= 24), delta=0.01, msg=frame)
             self.assertAlmostEqual(jaw.evaluate(frame), max(0, (frame - 36) / 12) ** 2, delta=0.005, msg=frame)
 
+    def test_faces_with_a_corner_twice_can_be_edited(self):
+        with open(self.path("odd.obj"), "w", encoding="utf-8") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                       "f 1/1 2/2 3/3 4/4\nf 2/1 5/2 5/2 3/3\nf 1 2 1\n")
+        tool("convert", self.path("odd.obj"), "-o", self.path("odd.sweep"))
+        bpy.ops.import_scene.sweep(filepath=self.path("odd.sweep"))
+        shown = bpy.context.object.data
+        self.assertEqual(sorted(len(polygon.vertices) for polygon in shown.polygons), [3, 4])
+        self.assertEqual(len(shown.uv_layers[0].data), 7)
+        self.assertFalse(shown.validate())  # nothing to mend
+
     def test_saves_in_edit_mode_and_in_the_order_of_keys(self):
         shown = self.sheet()
         for name in ("zeta", "alpha"):

@@ -46,6 +46,7 @@ TEST_F(Edit, FindsWhatIsNearAPoint) {
       EXPECT_LE(near[kind][k - 1]["distance"], near[kind][k]["distance"]);
   const std::string text = run("info sheet.sweep --near 1,0,2").out;
   EXPECT_NE(text.find("node b2: full, 0 away at 1,0,2"), std::string::npos) << text;
+  EXPECT_TRUE(fails("info sheet.sweep --near ''", "--near", 2));
   EXPECT_TRUE(fails("info sheet.sweep --near 1,0", "--near is a point like 0,1.5,-2, not '1,0'"));
   for (const char* point : {"1,0,nan", "1e300,0,0"})
     EXPECT_TRUE(fails(std::string("info sheet.sweep --near ") + point, "--near is a point"));

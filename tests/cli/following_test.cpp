@@ -104,13 +104,14 @@ TEST_F(Eyeballs, LeaveNoEmptyArcs) {
 TEST_F(Eyeballs, AreComparedWithWhereTheirTargetsLeadStraight) {
   const auto rendered = [&](const std::string& more) {
     const Outcome r = run(
-        "render face.sweep -o out.png --size 300x200 --style error --combine --limits 0:0 " + more);
+        "render face.sweep -o out.png --size 300x200 --style error --combine " + more);
     EXPECT_EQ(r.code, 0) << r.err;
     return contents(folder / "out.png");
   };
   const std::string down = "--weights eyeLookDownLeft=1";
   EXPECT_EQ(rendered(down + " --eyes on"), rendered(down));
   EXPECT_NE(rendered(down), rendered(""));
+  EXPECT_NE(rendered(down), rendered(down + " --limits 0:0.5"));
 }
 
 TEST_F(Following, CombinedTargetsFollow) {
@@ -206,6 +207,11 @@ TEST_F(Following, PicturesGoOnArcsAndShowWhatTheyChange) {
   EXPECT_NE(picture("--to jawOpen=1"), picture("--to jawOpen=1 --arcs on"));
   EXPECT_NE(picture("--weights jawOpen=0.5 --arcs on --style error"),
             picture("--weights jawOpen=1 --arcs on --style error"));
+  // Limits change both sides alike.
+  EXPECT_EQ(picture("--weights jawOpen=1 --limits 0:0.5 --arcs on --style error"),
+            picture("--weights jawOpen=0.5 --arcs on --style error"));
+  EXPECT_TRUE(
+      fails("render face.sweep -o out.png --style error --arcs on --limits x", "--limits: "));
   EXPECT_TRUE(fails("render face.sweep -o out.png --arcs on --weights jawOpen.arc=1",
                     "no target named 'jawOpen.arc'"));
   const Outcome both = run("render face.sweep -o out.png --arcs on --compare neutral.obj");

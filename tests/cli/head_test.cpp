@@ -138,6 +138,8 @@ TEST_F(HeadAndEyes, SayWhatIsMissing) {
   for (const std::string pivot : {"1,2", "1e300,0,0", "nan,0,0"})
     EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head on -o a.glb --pivot " + pivot,
                       "--pivot is a point like"));
+  EXPECT_TRUE(
+      fails("animate face.sweep --clip take.csv --head on -o a.glb --pivot ''", "--pivot", 2));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --pivot 1,2,3 -o a.glb", "--head", 2));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head on -o a.csv", "leave --regions"));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head yes -o a.glb",

@@ -66,6 +66,7 @@ TEST_F(Page, SaysWhatIsWrong) {
   EXPECT_TRUE(fails("report face.sweep other.obj -o report.html --no-tolerances", "26 vertices"));
   EXPECT_TRUE(
       fails("report face.sweep neutral.obj targets -o report.html --weights frown=1", "frown"));
+  EXPECT_TRUE(fails("report face.sweep --weights '' -o report.html", "name an expression"));
   EXPECT_TRUE(fails("report face.sweep neutral.obj targets -o report.png", "must end in"));
   EXPECT_TRUE(
       fails("report face.sweep neutral.obj targets -o no/report.html", "there is no folder no"));

@@ -50,6 +50,18 @@ TEST_F(Info, IsReadableByPeople) {
   EXPECT_EQ(run("info face.sweep --quiet").out, "");
 }
 
+// U+009B begins commands of terminals, like the escape character.
+TEST_F(Info, KeepsControlCharactersOfNamesFromTheTerminal) {
+  makeRig();
+  folder.file("targets/a\xC2\x9B.obj", sheet());
+  ASSERT_EQ(run("convert neutral.obj targets -o face.sweep -q").code, 0);
+  for (const char* command : {"info face.sweep", "measure face.sweep neutral.obj targets"}) {
+    const Outcome r = run(command);
+    EXPECT_NE(r.out.find("a?"), std::string::npos) << r.out;
+    EXPECT_EQ(r.out.find("\xC2\x9B"), std::string::npos) << command;
+  }
+}
+
 TEST_F(Info, RefusesWhatIsNoFace) {
   EXPECT_TRUE(fails("info face.sweep", "face.sweep: there is no such file"));
   folder.file("face.sweep", "not a face");

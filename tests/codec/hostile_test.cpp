@@ -515,6 +515,55 @@ TEST(Hostile, PatchesOfMoreArcsThanOneLooksAlongAreRefused) {
   EXPECT_EQ(made.error().message, "patch 0 has more than 4096 arcs around it; divide it");
 }
 
+// Ribbons that no patch has take an eighth of a byte each.
+TEST(Hostile, RibbonsOfNoPatchTakeTheMemoryThatIsAllowed) {
+  constexpr std::size_t kRibbons = 1 << 20;
+  const std::string bytes = withPayload(encodeVersion1(makeRig(onePatch(1, 1))), "SHAP",
+                                        payloadOf([](codec::Writer& out) {
+                                          out.number(kRibbons);
+                                          out.raw(std::string(kRibbons / 8, '\0'));
+                                        }));
+  EXPECT_TRUE(decode(bytes, "a.sweep"));
+  allocations.largest = 0;
+  const auto rig = decode(bytes, "a.sweep", {4'000'000});
+  ASSERT_FALSE(rig);
+  EXPECT_NE(rig.error().message.find("memory"), std::string::npos) << rig.error().message;
+  EXPECT_LT(allocations.largest, 4'000'000u);
+}
+
+/// A sheet each of whose arcs along v has a shape of its own.
+Wireframe sheetOfShapes(Index size) {
+  Wireframe w = sheet(size);
+  w.ribbons = {{}};
+  for (std::size_t a = w.arcs.size() / 2; a < w.arcs.size(); ++a) {
+    w.arcs[a].ribbon = static_cast<Index>(w.ribbons.size());
+    w.ribbons.push_back({1, -1 - std::ldexp(static_cast<double>(a), -20), 0});
+  }
+  return w;
+}
+
+// Near a resonance each shape takes as long as thousands of patches.
+TEST(Hostile, TooManyShapesAreRefused) {
+  EXPECT_TRUE(Surface::make(sheetOfShapes(100)));
+  const auto made = Surface::make(sheetOfShapes(130));
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message, "the ribbons have more than 16384 pairs of a shape and a length");
+}
+
+TEST(Hostile, SentencesOfOthersEndWithTheAdvice) {
+  Rig rig = makeRig(onePatch(1, 1));
+  const std::string file = encode(rig);
+  Wireframe resonant = onePatch(1, 1);
+  resonant.ribbons[1] = {1, 80.7, 1};
+  const auto refused = decode(withPayload(file, "GRID", codec::ranged([&](auto& out) {
+                                            codec::writeWireframe(out, resonant, {});
+                                          })),
+                              "a.sweep");
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(refused.error().message.ends_with("at most 10); convert the source again."))
+      << refused.error().message;
+}
+
 // Sums of such would be infinite, and differences of those no numbers.
 TEST(Hostile, ExactVectorsBeyondSinglePrecisionAreRefused) {
   Rig rig = makeRig(onePatch(2, 2));

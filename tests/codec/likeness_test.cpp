@@ -58,7 +58,7 @@ TEST_F(AFewPoses, MayMoveTheOtherWay) {
   EXPECT_EQ(like.pose, 1);
   EXPECT_TRUE(like.negated);
   Coefficients expected(count);
-  for (const codec::Moved& m : movedIn(like, lattice, poses)) expected[m.vector] = m.steps;
+  for (const codec::Moved& m : hintsOf(like, lattice, poses)) expected[m.vector] = m.steps;
   EXPECT_EQ(expected, poses[2]);
 }
 

@@ -268,6 +268,29 @@ TEST(EyeTurns, GoTheUsualWayWhereTheBallMovesByATraceAlone) {
   }
 }
 
+// A movement counts by how far it takes places, however many other vectors are stored there.
+TEST(EyeTurns, GoTheUsualWayWhereTheBallMovesByLessThanAFiftiethOfItsRadius) {
+  const Rig plain = converted(faceWithEyes(false));
+  const auto way = [&](double share) {
+    Rig rig = plain;
+    Target& target = rig.targets[rig.find("eyeLookDown_L")];
+    for (Index v = 0; v < rig.surface.storedCount(); ++v)
+      if (rig.surface.stored(v).isPosition() && norm(rig.neutral[v] - kLeft) < 1.1 * kRadius)
+        target.difference[v] = share * kRadius * Vec3{std::sin(9.0 * v), std::cos(9.0 * v), 0};
+    const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
+    std::vector<double> weights(rig.targets.size());
+    weights[rig.find("eyeLookDown_L")] = 1;
+    const auto before = shown(rig, weights);
+    turns.apply(weights);
+    const auto after = shown(rig, weights);
+    double most = 0;
+    for (std::size_t v = 99; v < 99 + 218; ++v) most = std::max(most, norm(after[v] - before[v]));
+    return most;
+  };
+  EXPECT_NEAR(way(0.019), 2 * kRadius * std::sin(0.25), 0.03);
+  EXPECT_LT(way(0.021), 0.1);  // noise, and no turn
+}
+
 TEST(EyeTurns, AreNotBentByArcsThatAreThereAlready) {
   Rig rig = converted(faceWithEyes(true));
   const auto rest = shown(rig, {});

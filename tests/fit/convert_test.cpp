@@ -403,6 +403,21 @@ TEST(Search, forAToleranceIsDoneWhereTheFinestThatIsWantedFits) {
   EXPECT_EQ(conversion->rig.tolerance, 0.05);
 }
 
+TEST(Search, forAToleranceRefusesWhatConvertRefuses) {
+  ConvertOptions options;
+  for (const double bad : {-1.0, std::nan("")}) {
+    options.tolerance = bad;
+    const auto none = convertToBytes(withTargets(plane()), options, 1 << 20);
+    ASSERT_FALSE(none) << bad;
+    EXPECT_TRUE(none.error().message.starts_with("the tolerance is a number from 0"));
+  }
+  MeshRig broken = withTargets(plane());
+  broken.neutral.polygons.corners[0] = 2'000'000'000;
+  const auto none = convertToBytes(broken, {}, 1 << 20);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, refusal(broken, {}));
+}
+
 TEST(Search, forAToleranceCountsWhatIsAddedBeforeTheFileIsWritten) {
   const MeshRig source = withTargets(plane());
   const auto finish = [](Rig& rig) -> Result<void> {

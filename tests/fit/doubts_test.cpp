@@ -177,6 +177,10 @@ TEST(Doubts, AreOfAToleranceTooFineForACoarseMesh) {
   EXPECT_NE(doubts[0].find("lean 5.7 degrees"), std::string::npos) << doubts[0];
   EXPECT_TRUE(doubts[0].ends_with("and try a tolerance of 0.5.")) << doubts[0];
   EXPECT_TRUE(doubtsAbout(rig, 0.5).empty());
+  // No tolerance is proposed that would be doubted itself.
+  const auto rough = doubtsAbout({corrugated(1), {}}, 0.4);
+  ASSERT_EQ(rough.size(), 1u);
+  EXPECT_TRUE(rough[0].ends_with("otherwise compare pictures.")) << rough[0];
   EXPECT_TRUE(doubtsAbout({corrugated(0.04), {}}, 0.01).empty());   // as good as smooth
   EXPECT_TRUE(doubtsAbout({corrugated(0.1, 4), {}}, 0.1).empty());  // too few faces to judge
 }

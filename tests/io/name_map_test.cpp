@@ -68,6 +68,10 @@ TEST(NameMaps, TellWhichOfTheirNamesTheClipLacks) {
   const Clip clip = mapped(R"({"jawOpen": "smile", "beard": "puff", "tail": null})").value();
   EXPECT_EQ(clip.names, (Texts{"mouthSmile_L", "mouthSmileRight", "smile"}));
   EXPECT_EQ(clip.warnings, Texts{"names.json: the clip has no beard, tail."});
+  const Clip many = mapped(R"({"a": null, "b": null, "c": null, "d": null, "e": null, "f": null,
+                               "g": null, "h": null})")
+                        .value();
+  EXPECT_EQ(many.warnings, Texts{"names.json: the clip has no a, b, c, d, e, f and 2 more."});
 }
 
 TEST(NameMaps, RefuseWhatCannotBeMeant) {

@@ -106,6 +106,31 @@ TEST(Welding, tellsOfSeamsThatStayOpen) {
   EXPECT_TRUE(makeGridMesh(seam, 1e-6, 1)->warnings.empty()) << "too far for its edges";
 }
 
+/// Cards of hair and lashes, narrower than the gap that is looked for: as meshes of one face each,
+/// and one after the other around a seam, whose vertices are near each other in chains.
+TEST(Welding, leavesNarrowCardsAsTheyAre) {
+  PolygonMesh cards = grid(8, 8, [](double x, double y) { return Vec3{x, y, 0}; });
+  for (int k = 0; k < 5; ++k)
+    cards = joined(cards, grid(1, 1, [](double x, double y) { return Vec3{0.001 * x, y, 1}; }),
+                   {1.0 * k, 0, 0});
+  EXPECT_TRUE(makeGridMesh({cards, {}}, 1e-6, 0.002)->warnings.empty());
+  EXPECT_EQ(makeGridMesh({cards, {}}, 0.002, 0.002)->pointCount(), 81 + 5 * 4);
+}
+
+/// Gaps count by how wide they are, not by how far their vertices reach together.
+TEST(Welding, tellsHowFarSeamsAreOpenNotHowLongTheyAre) {
+  const auto sheetAt = [](double x) {
+    return grid(1, 8, [x](double i, double j) { return Vec3{x + i, j, 0}; });
+  };
+  PolygonMesh sheets = sheetAt(0);
+  sheets = joined(sheets, sheetAt(0), {1.001, 0, 0});
+  sheets = joined(sheets, sheetAt(0), {2.0025, 0, 0});
+  const auto warnings = makeGridMesh({sheets, {}}, 1e-6, 0.002)->warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("along 18 vertices within 0.0015 of others"), std::string::npos)
+      << warnings[0];
+}
+
 /// Two sheets of 40 × 40 quads that meet along an edge where each has its own vertices.
 TEST(Welding, joinsWhatRoundingPartedHoweverItStands) {
   PolygonMesh sheets =

@@ -100,6 +100,8 @@ TEST(Roots, thatOscillateFasterThanTheGridAreRefused) {
   }
   const auto message = SweepBasis::make({1, 1e20, 0}).error().message;
   EXPECT_NE(message.find("near more than 1000000000,"), std::string::npos) << message;
+  const auto nearly = SweepBasis::make({1, 1.0005e6, 0}).error().message;
+  EXPECT_NE(nearly.find("(roots near 1001, at most 1000)"), std::string::npos) << nearly;
   EXPECT_FALSE(isRefused(-1e8, 0));
 }
 

@@ -262,7 +262,7 @@ TEST(HeatMaps, SayNothingOfRounding) {
   for (Vec3& p : original) p.x += 1e-14;
   const HeatMap map = FaceScenes(hill.rig, 1).heatMap(hill.rest, original, Style::error);
   EXPECT_EQ(map.worst, 0);
-  EXPECT_EQ(map.scene.labels.at(0).text, "0");
+  EXPECT_TRUE(map.scene.labels.empty());
 }
 
 TEST(HeatMaps, EndAtTheTolerance) {

@@ -2,6 +2,7 @@
 
 import json
 import unittest
+import warnings
 
 import numpy as np
 import sweepface
@@ -83,6 +84,17 @@ class Clips(FaceTest):
             sweepface.read_clip(self.path("take.txt"))
         with self.refuses("between 0 and 1000"):
             sweepface.read_clip(self.path("take.csv"), frames_per_second=-1)
+        with self.refuses("between 0 and 1000"):
+            self.clip().save_csv(self.path("take.csv"), 2000)
+
+    def test_have_the_names_of_a_capture_in_another_encoding(self):
+        with open(self.path("take.csv"), "wb") as file:
+            file.write(b"Timecode,jawOpen,m\xfcnd\n0,0.5,1\n1,1,0\n")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            clip = sweepface.read_clip(self.path("take.csv"))
+        self.assertEqual(clip.names, ["jawOpen", "m\\xfcnd"])
+        self.assertEqual(clip.match(self.rig), {"jawOpen": ["jawOpen"], "m\\xfcnd": []})
 
 
 if __name__ == "__main__":

@@ -84,6 +84,13 @@ class Faces(FaceTest):
         for shift in (0, 1):
             with self.refuses("different places"):
                 self.face.evaluate(OPEN, positions=same[:-1], normals=same[shift:][:8216])
+        frames = np.zeros((8216, 5, 3), np.float32)  # [V, F, 3]
+        with self.refuses("different places"):
+            self.face.evaluate(np.zeros((3, 42)), positions=frames[:, :3].transpose(1, 0, 2),
+                               normals=frames[:, 1:4].transpose(1, 0, 2))
+        beside = {"positions": frames[:, :2].transpose(1, 0, 2), "normals": frames[:, 2:4].transpose(1, 0, 2)}
+        self.face.evaluate(np.ones((2, 42)), **beside)
+        self.assertTrue(np.array_equal(beside["normals"], self.face.evaluate(np.ones((2, 42)), normals=True)[1]))
         folded = np.lib.stride_tricks.as_strided(same, (2, 8216, 3), (12, 12, 4))
         with self.refuses("Positions must be written to"):
             self.face.evaluate(np.zeros((2, 42)), positions=folded)

@@ -31,8 +31,15 @@ class Types(unittest.TestCase):
 
     def test_name_the_same_arguments(self):
         def check(function, text, owner):
-            for argument in function.args.args + function.args.kwonlyargs:
-                self.assertRegex(text, rf"\b{argument.arg}\b", f"{owner}.{function.name}")
+            given = function.args
+            defaults = [None] * (len(given.args) - len(given.defaults)) + given.defaults + given.kw_defaults
+            for argument, default in zip(given.args + given.kwonlyargs, defaults):
+                where = f"{owner}.{function.name}'s {argument.arg}"
+                self.assertRegex(text, rf"\b{argument.arg}\b", where)
+                real = re.search(rf"\b{argument.arg}: [^=:]*? = (.*?)(, \w+: |, \*|\) ->)", text)
+                self.assertEqual(default is not None, real is not None, where)
+                if real and ast.literal_eval(default) is not ...:
+                    self.assertEqual(ast.literal_eval(default), ast.literal_eval(real.group(1)), where)
 
         for item in self.stub:
             if isinstance(item, ast.FunctionDef):

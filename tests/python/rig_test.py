@@ -56,6 +56,8 @@ class Files(FaceTest):
         self.assertLessEqual(gap.max(), 0.01)
         with self.refuses("order, uv"):
             self.rig.stripped("teeth")
+        with self.refuses(r"^Packed texture coordinates have 8 to 16 bits, not 99\.$"):
+            self.rig.packed(texture_bits=99)
 
     def test_become_objs(self):
         self.rig.save_obj(self.path("open.obj"), {"jawOpen": 1})

@@ -135,6 +135,26 @@ TEST(Looks, LeaveOutMapsWithOtherTextureCoordinates) {
   EXPECT_EQ(look.occlusionMap.image, -1);
 }
 
+TEST(Looks, KeepMapsThatAreMovedAlikeHoweverThatIsWritten) {
+  Glb glb = textured({kPng});
+  const auto moved = [&](const char* of, const char* how) {
+    Json& map = of == std::string("base")
+                    ? material(glb)["pbrMetallicRoughness"]["baseColorTexture"]
+                    : material(glb)[of];
+    map = {{"index", 0}, {"extensions", {{"KHR_texture_transform", Json::parse(how)}}}};
+  };
+  moved("base", R"({"offset": [0.5, 0], "scale": [2, 2]})");
+  moved("normalTexture", R"({"scale": [2, 2], "rotation": 0, "offset": [0.5, 0.0]})");
+  moved("emissiveTexture", R"({"scale": [2, 1], "offset": [0.5, 0]})");
+  usd::Look look = lookOf(glb);
+  EXPECT_EQ(look.normalMap.image, 0);
+  EXPECT_EQ(look.emissionMap.image, -1);
+  material(glb)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  moved("normalTexture", R"({"offset": [0, 0]})");
+  look = lookOf(glb);
+  EXPECT_EQ(look.normalMap.image, 0);
+}
+
 // A base colour of the second set leaves the rig the first as it is.
 TEST(Looks, HaveNoMapsThatAreMovedAlone) {
   Glb glb = textured({kPng});

@@ -248,6 +248,8 @@ TEST(UsdWriter, RefusesWhatUsdCannotHold) {
   options = {};
   options.lod = -1;
   EXPECT_TRUE(failsWith(formatUsd(rig, options), {"level of detail"}));
+  options.lod = 60'000;
+  EXPECT_TRUE(failsWith(formatUsd(rig, options), {"100,000,000 faces", "lower level"}));
   options = {};
   options.timeCodesPerSecond = std::nan("");
   EXPECT_TRUE(failsWith(formatUsd(rig, options), {"Time codes a second"}));

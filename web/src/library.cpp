@@ -23,7 +23,7 @@ double ldexp(double x, int exponent) {
   const auto power = [](int n) { return std::bit_cast<double>(std::uint64_t(n + 1023) << 52); };
   int left = std::clamp(exponent, -3000, 3000);
   for (; left > 1023; left -= 1023) x *= power(1023);
-  for (; left < -969; left += 969) x *= power(-969);  // rounds once, where digits are lost
+  for (; left < -969; left += 969) x *= power(-969);  // may round a subnormal result twice
   return x * power(left);
 }
 

@@ -231,12 +231,19 @@ test('what is no scene is refused with a sentence', options, async () => {
   await assert.rejects(SweepfaceMesh.load(readFileSync(sample), {lod: 2}), /^TypeError: A mesh takes the scene/);
   assert.throws(() => new SweepfaceMesh('face', {lod: 2}, mesh.face), /^TypeError: A mesh takes the scene/);
   assert.equal(scene.meshes.length, 1);
+  const {EngineStore} = await import(`${core}/Engines/engineStore.js`);
+  for (const {scenes} of EngineStore.Instances) for (const each of [...scenes]) each.dispose();
+  await assert.rejects(SweepfaceMesh.load(readFileSync(sample)), /^TypeError: A mesh takes the scene/);
 });
 
 test('a face goes if no mesh can be made of it, and leaves none behind', options, async () => {
   const {scene, mesh, SweepfaceMesh} = await load();
   mesh.dispose();
   assert.throws(() => new SweepfaceMesh('face', scene, mesh.face), /disposed of/);
+  assert.equal(scene.meshes.length, 0);
+  const poor = {...played(sample, {}, 0), vertexCount: 3, parts: [], advance: () => false,
+                evaluate() { throw new Error('There is not enough memory.'); }};
+  assert.throws(() => new SweepfaceMesh('face', scene, poor), /not enough memory/);
   assert.equal(scene.meshes.length, 0);
   const late = SweepfaceMesh.load(readFileSync(sample), scene);
   scene.dispose();

@@ -181,6 +181,13 @@ test('numbers may have a sign and an exponent', () => {
   assert.deepEqual([...readClip('Timecode,a\n0,+.5\n1,-5E-1\n').weights], [0.5, -0.5]);
 });
 
+test('a number too small to be told from 0 is none, as for the tool', () => {
+  const small = 'Timecode,a\n0,1e-400\n1,0e-400\n';
+  assert.match(refusal('small.csv', small), /'1e-400'/);
+  assert.throws(() => readClip(small), /line 2.*'1e-400'/);
+  assert.deepEqual([...readClip('Timecode,a\n0,0e-400\n1,.00\n').weights], [0, 0]);
+});
+
 test('options that there are not are refused', () => {
   assert.throws(() => readClip(csv, {fps: 30}), {message: 'readClip has no option \'fps\'; it has name, framesPerSecond.'});
   assert.throws(() => readTimeline('{}', {fps: 30}), {message: 'readTimeline has no option \'fps\'; it has name.'});
@@ -295,6 +302,24 @@ test('what is no map of names is refused', () => {
   assert.throws(() => clip.renamed({jawOpen: 'a', jaw_open: 'b'}), /^TypeError: 'jawOpen' and 'jaw_open' are one name of the clip/);
   const loud = new Clip(['jawOpen'], new Float64Array(1), new Float64Array([5e3]));
   assert.throws(() => loud.renamed({jawOpen: {a: 300}}), /^RangeError: 'a' would get a weight beyond/);
+});
+
+test('a map of names may make no clip that the tool could not hold', {timeout: 5000}, () => {
+  const clip = new Clip(['jawOpen'], new Float64Array(70_000), new Float64Array(70_000));
+  const targets = Array.from({length: 1000}, (_, k) => `target${k}`);
+  assert.throws(() => clip.renamed({jawOpen: targets}), {name: 'RangeError', message: /too many weights; cut it/});
+});
+
+test('timelines of many goals are refused as by the tool, others are read at once', {timeout: 20_000}, () => {
+  const many = (poses, weights, events) => JSON.stringify({
+    seconds: 9, poses: Object.fromEntries(Array.from({length: poses}, (_, p) => [
+      `pose${p}`, Object.fromEntries(Array.from({length: weights}, (_, k) => [`target${k}`, 0.5]))])),
+    events: Array.from({length: events}, (_, k) => ({at: k / events, to: `pose${k % poses}`}))});
+  const timeline = readTimeline(many(20_000, 1, 20_000));
+  assert.equal(timeline.events.length, 20_000);
+  assert.throws(() => readTimeline(many(1, 3000, 3000), {name: 'a.json'}),
+                {message: /^a\.json: events\[2666\] is beyond the 8,000,000 goals of a timeline/});
+  assert.match(refusal('a.json', many(1, 3000, 3000)), /events\[2666\] is beyond the 8,000,000 goals/);
 });
 
 test('any text is a name', () => {

@@ -572,7 +572,9 @@ test('a loader makes the mesh that it is told to', options, async () => {
   assert.ok(made instanceof SweepfaceGpuMesh);
   assert.equal(made.face.lod, 2);
   assert.equal((await loader.parseAsync(bytes, {mesh: Mine})).constructor, Mine);
-  assert.equal((await loader.parseAsync(bytes, {mesh: undefined})).constructor, SweepfaceMesh);
+  const {face, constructor} = await loader.parseAsync(bytes, {mesh: undefined, lod: undefined});
+  assert.deepEqual([constructor, face.lod], [SweepfaceGpuMesh, 2]);
+  assert.ok((await loader.parseAsync(bytes, {vertices: 5000, mesh: SweepfaceMesh})).face.pointCount <= 5000);
   for (const mesh of [null, 'SweepfaceGpuMesh', three.Mesh, {}])
     await assert.rejects(loader.parseAsync(bytes, {mesh}), /^TypeError: The option 'mesh' is a class: /);
 });
@@ -654,6 +656,9 @@ test('a loader that is aborted hands over no face', {...options, timeout: 10_000
 test('a loader tells of what is no URL, and takes no path for options', options, async () => {
   const {SweepfaceLoader} = await import('../sweepface_three.js');
   for (let k = 0; k < 2; ++k) assert.match((await happenings('http://[')).join(), /^amiss,all,.*URL/);
+  const bytes = `data:application/octet-stream;base64,${'QUJD'.repeat(2000)}`;
+  const told = (await happenings(bytes)).filter((text) => text.startsWith('data:'));
+  assert.match(told.join(), /^data:application\/octet-stream;base64.{5,300}\.$/);
   await assert.rejects(new SweepfaceLoader().parseAsync(readFileSync(sample), 'faces/'), /takes bytes and options, no path/);
 });
 
