@@ -222,7 +222,7 @@ def read_lines(path):
 
 def without_repeats(corners):
     """The corners of a face without those at the vertex of the one before: Blender crashes when it edits a face that
-    has a vertex twice. None if there are fewer than three then, or the face comes back to a vertex."""
+    has a vertex twice. Empty if there are fewer than three then, or the face comes back to a vertex."""
     kept = [corner for k, corner in enumerate(corners) if corner[0] != corners[k - 1][0]]
     return kept if 3 <= len(kept) == len({corner[0] for corner in kept}) else []
 

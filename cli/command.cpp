@@ -337,12 +337,13 @@ bool isOfKind(std::string_view path, std::string_view kind) {
 
 bool isGltf(std::string_view path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }
 
-Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar) {
+Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar, bool withScene) {
   std::vector<fs::path> paths;
   for (const std::string& target : meshes.targets) paths.push_back(utf8Path(target));
-  return readSource(utf8Path(meshes.neutral), paths, [&](std::size_t done, std::size_t total) {
+  const auto show = [&](std::size_t done, std::size_t total) {
     bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
-  });
+  };
+  return readSource(utf8Path(meshes.neutral), paths, show, withScene);
 }
 
 Result<RigSource> subdivided(RigSource source, const MeshArguments& meshes) {
@@ -355,7 +356,7 @@ Result<RigSource> subdivided(RigSource source, const MeshArguments& meshes) {
 }
 
 Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar) {
-  Result<RigSource> source = readCages(meshes, bar);
+  Result<RigSource> source = readCages(meshes, bar, false);
   return source ? subdivided(std::move(*source), meshes) : std::move(source);
 }
 

@@ -137,10 +137,10 @@ bool isOfKind(std::string_view path, std::string_view kind);
 bool isGltf(std::string_view path);
 
 /// Reads the meshes that the options of addMeshes() name, as they are in their files.
-Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar);
+Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar, bool withScene);
 /// Subdivides them as the options ask.
 Result<RigSource> subdivided(RigSource source, const MeshArguments& meshes);
-/// Does both.
+/// Does both, without a scene.
 Result<RigSource> readMeshes(const MeshArguments& meshes, ProgressBar& bar);
 
 /// Checks, before the long work, that a file can be made at `output` without overwriting an input.

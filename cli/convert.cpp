@@ -159,15 +159,11 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   return options;
 }
 
-bool bringsScene(const ConvertArguments& a, const Strip& parts, const RigSource& source) {
-  return !a.bare && !parts.scene && !source.scene.empty();
-}
-
 /// Reads the meshes, and the scene as the file is to hold it.
 Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, ProgressBar& bar) {
-  Result<RigSource> cages = readCages(a.meshes, bar);
+  Result<RigSource> cages = readCages(a.meshes, bar, !a.bare && !parts.scene);
   if (!cages) return cages;
-  const bool keepsScene = bringsScene(a, parts, *cages) && !parts.order;
+  const bool keepsScene = !cages->scene.empty() && !parts.order;
   if (a.meshes.subdivisions > 0 && keepsScene)
     return fail(
         fmt::format("What {} holds besides the face belongs to its mesh as it is, without "
@@ -187,10 +183,9 @@ Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, Prog
 /// Warnings about the source, and about its scene if that is lost.
 std::vector<std::string> warningsOf(const ConvertArguments& a, const Strip& parts,
                                     const RigSource& source) {
-  const bool losesScene = parts.order && bringsScene(a, parts, source);
+  const bool losesScene = parts.order && !source.scene.empty();
   std::vector<std::string> warnings = source.faceWarnings;
-  if (!a.bare && !parts.scene && !losesScene)
-    std::ranges::copy(source.warnings, std::back_inserter(warnings));
+  if (!losesScene) std::ranges::copy(source.warnings, std::back_inserter(warnings));
   if (losesScene) warnings.push_back(sceneIsLost(a.meshes.neutral));
   if (isGltf(a.meshes.neutral) && source.rig.targets.empty())
     warnings.push_back(a.meshes.neutral + " has no morph targets, so the face has no expressions.");
@@ -214,7 +209,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto finish = [&](Rig& rig) {
     std::vector<Turn> turns;
     if (a.arcs) turns = findTurns(rig);
-    if (!a.bare) rig.scene = source->scene;
+    rig.scene = source->scene;
     auto ok = strip(rig, *parts);
     rig.turns = std::move(turns);
     return ok;

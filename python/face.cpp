@@ -193,11 +193,8 @@ void addFace(py::module_& m) {
           "[F, K] evaluates F frames on all cores. A face in regions takes [R, K] or [F, R, K]. "
           "look, by 'left_eye' and 'right_eye', is yaw, pitch and roll in radians, one [3] or [F, "
           "3], by which eyes turn instead of the eyeLook weights, as Clip.angles returns them; an "
-          "eye "
-          "that is not named looks ahead. "
-          "positions and normals are whether they are "
-          "wanted, or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns those that are "
-          "wanted.")
+          "eye that is not named looks ahead. positions and normals are whether they are wanted, "
+          "or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns those that are wanted.")
       .def_property_readonly(
           "regions", [](const Face& face) { return face.regions.value_or(std::vector<Region>{}); },
           "Those that have weights of their own, in their order; none if it is not divided.")

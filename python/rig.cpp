@@ -226,12 +226,11 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           "Writes a GLB with the targets as morph targets, in the scene that came with the rig, if "
           "one did. level 0: the source's vertices; N: every edge cut into N. Or a budget instead: "
           "at most so many vertices, no longer edges along curves, or no edge further than error "
-          "from "
-          "the surface. morph_normals writes normals of the targets, too; quantize stores whole "
-          "numbers (KHR_mesh_quantization); weights are those at which the face is shown. A clip "
-          "becomes an animation, in as few keys as keep its weights within key_tolerance, if that "
-          "is given. With head, the whole model turns by the clip's angles of the head, about the "
-          "pivot [3] or else its middle.")
+          "from the surface. morph_normals writes normals of the targets, too; quantize stores "
+          "whole numbers (KHR_mesh_quantization); weights are those at which the face is shown. A "
+          "clip becomes an animation, in as few keys as keep its weights within key_tolerance, if "
+          "that is given. With head, the whole model turns by the clip's angles of the head, about "
+          "the pivot [3] or else its middle.")
       .def(
           "save_usd",
           [](const Rig& r, const std::filesystem::path& path, Index level,

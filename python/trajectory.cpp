@@ -44,8 +44,7 @@ void addTrajectory(py::module_& m) {
           },
           "start"_a, "end"_a, "seconds"_a, "velocity"_a = 0,
           "Newton's second law from any velocity: x'' = 2 (end - start - velocity T) / T^2 with T "
-          "= "
-          "seconds.")
+          "= seconds.")
       .def_static(
           "linear_force",
           [](double start, double end, double seconds, double velocity, double endVelocity) {

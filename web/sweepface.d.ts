@@ -107,6 +107,8 @@ export interface Part {
   count: number;
 }
 
+export interface Sweepface extends Moved {}
+
 /** A face that follows its weights. */
 export class Sweepface {
   private constructor();
@@ -119,8 +121,6 @@ export class Sweepface {
   /** Another face of the same file, at rest; the two share everything but their weights. */
   clone(): Sweepface;
 
-  /** The expressions. */
-  readonly names: string[];
   /** The level that was asked for; 0 if a budget was. */
   readonly lod: number;
   /** How far any source vertex may be off in any expression, in model units, not counting what evaluation adds. */
@@ -138,13 +138,30 @@ export class Sweepface {
   /** Bytes of WebAssembly memory that the file and all its faces hold. */
   readonly memoryBytes: number;
 
+  /** A copy of `weights` as numbers in the order of `names`: faster if used every frame. */
+  readonly weightValues: Float64Array;
+  /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
+  evaluate(positions: Float32Array | Float64Array | null, normals?: Float32Array | Float64Array | null): void;
+  /** The tables from which a vertex shader evaluates the face: docs/evaluation.md. */
+  shaderTables(tangents?: boolean): {basis: Int16Array; places: Uint32Array; neutral: Float32Array; modes: number};
+  /** Writes what changes for such a shader every frame, four integers a mode; returns their factor. */
+  shaderModes(out: Int16Array, tangents?: boolean): number;
+  /** For each vertex after the points, the point that it repeats. */
+  readonly copies: Uint32Array;
+
+  /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
+  dispose(): void;
+}
+
+/** What a face does, and a mesh with its face. */
+export interface Moved {
+  /** The expressions. */
+  readonly names: string[];
   /** The regions, first 'rest' if they leave anything; empty if the face is not divided. */
   readonly regions: string[];
   /** The current weights; of several regions, those of the first. */
   readonly weights: Readonly<Weights>;
   weightsIn(region: string): Readonly<Weights>;
-  /** A copy of `weights` as numbers in the order of `names`: faster if used every frame. */
-  readonly weightValues: Float64Array;
   /** Sets the named weights at once, everywhere or in one region; the others stay. */
   setWeights(weights: Weights, region?: string): void;
   /** Sets all weights to 0 at once. */
@@ -166,23 +183,7 @@ export class Sweepface {
   look(pose: Pose | null): void;
   /** The pose last given to `look`. */
   readonly pose: ReadonlyPose | null;
-
-  /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
-  evaluate(positions: Float32Array | Float64Array | null, normals?: Float32Array | Float64Array | null): void;
-  /** The tables from which a vertex shader evaluates the face: docs/evaluation.md. */
-  shaderTables(tangents?: boolean): {basis: Int16Array; places: Uint32Array; neutral: Float32Array; modes: number};
-  /** Writes what changes for such a shader every frame, four integers a mode; returns their factor. */
-  shaderModes(out: Int16Array, tangents?: boolean): number;
-  /** For each vertex after the points, the point that it repeats. */
-  readonly copies: Uint32Array;
   /** Gets the face ready to move: reads what targets do, and builds the tables for evaluation. Otherwise that happens
    * when the face first moves, and takes a few frames. */
   prepare(): void;
-
-  /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
-  dispose(): void;
 }
-
-/** What a mesh does with its face. */
-export type Moved = Pick<Sweepface, 'names' | 'eyeCount' | 'regions' | 'weights' | 'weightsIn' | 'pose' | 'look' | 'setWeights' |
-  'reset' | 'moveTo' | 'push' | 'advance' | 'prepare'>;

@@ -52,7 +52,7 @@ function passing(scene, milliseconds) {
 async function download(url) {
   const answer = await fetch(url);
   if (answer.ok) return answer.arrayBuffer();
-  throw new Error(`${url} cannot be loaded: the server answers ${answer.status} ${answer.statusText}`.trimEnd() + '.');
+  throw new Error(`${nameOf(url)} cannot be loaded: the server answers ${answer.status} ${answer.statusText}`.trimEnd() + '.');
 }
 
 /** The name of a file without its folders and query; other URLs, such as data:, have none. */

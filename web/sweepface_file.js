@@ -14,7 +14,7 @@ const FOLLOW = {arcs: 1, combine: 2};
 
 /** Usual options and others that replace them, unless undefined; one way to ask for a level of detail replaces all. */
 export function withOptions(usual, options) {
-  const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined)), all = {...usual};
+  const given = Object.fromEntries(Object.entries(options ?? {}).filter(([, value]) => value !== undefined)), all = {...usual};
   if (DETAILS.some((key) => key in given)) for (const key of DETAILS) delete all[key];
   return {...all, ...given};
 }

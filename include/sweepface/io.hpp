@@ -45,10 +45,11 @@ struct RigSource {
 };
 
 /// The same from any files: a single .glb or .gltf, which holds its targets, or files as in
-/// readRig. Where all faces are triangles, pairs of them become quads (docs/quads.md).
+/// readRig. Where all faces are triangles, pairs of them become quads (docs/quads.md). Without
+/// `withScene`, what a file holds besides the rig is neither checked nor returned.
 Result<RigSource> readSource(const std::filesystem::path& neutral,
                              std::span<const std::filesystem::path> targets,
-                             const ReadProgress& progress = {});
+                             const ReadProgress& progress = {}, bool withScene = true);
 
 /// What formatObj writes.
 struct ObjOutput {

@@ -8,7 +8,7 @@
 
 namespace sweepface {
 
-/// Three corners of a polygon, counted from 0.
+/// Three corners of a polygon, or vertices, counted from 0.
 using Triangle = std::array<Index, 3>;
 
 /// The positions of a face's corners.

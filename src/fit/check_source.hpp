@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "sweepface/mesh.hpp"
 
 namespace sweepface {
@@ -23,5 +25,9 @@ Result<void> checkFromZero(double value, std::string_view what);
 
 /// Fails if texture coordinates cannot be packed to this many bits.
 Result<void> checkTextureBits(int bits);
+
+/// The beginning of the error message for a conversion that met the tolerance for distances but not
+/// the one for normals: a smaller one for distances may meet both.
+inline constexpr std::string_view kNormalsOutOfReach = "normals came no nearer to the mesh's than";
 
 }  // namespace sweepface

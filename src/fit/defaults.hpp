@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <string_view>
 
 namespace sweepface {
 
@@ -19,9 +18,5 @@ inline constexpr double kNeutralStep = 0.25;
 
 /// The angle that packing aims at, as a share of the limit on normals.
 inline constexpr double kAngleShare = 0.2;
-
-/// The beginning of the error message for a conversion that met the tolerance for distances but not
-/// the one for normals: a smaller one for distances may meet both.
-inline constexpr std::string_view kNormalsOutOfReach = "normals came no nearer to the mesh's than";
 
 }  // namespace sweepface

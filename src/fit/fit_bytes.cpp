@@ -8,7 +8,6 @@
 #include "sweepface/fit.hpp"
 
 #include "fit/check_source.hpp"
-#include "fit/defaults.hpp"
 
 namespace sweepface {
 

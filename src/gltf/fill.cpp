@@ -123,9 +123,7 @@ class Filler {
 
   Result<void> checkSize() const {
     if (builder_.size() < mostBytes) return {};
-    return fail(
-        "The face would need more than the 4 GiB of a GLB; choose a lower level of detail or a "
-        "smaller budget.");
+    return tooLargeForGlb();
   }
 
   static auto inTarget(std::size_t target) {

@@ -35,9 +35,7 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
 Result<void> checkLod(const Surface& surface, Index lod) {
   const auto quads = static_cast<double>(surface.wireframe().quadCount());
   if (24 * quads * lod * lod < 4e9) return {};
-  return fail(
-      "The face would need more than the 4 GiB of a GLB; choose a lower level of detail or a "
-      "smaller budget.");
+  return tooLargeForGlb();
 }
 
 /// Whether the file has the vertices of the rig's source, or others where the grid's are.
@@ -119,10 +117,7 @@ class GlbWriter {
       document.buffers[0] = gatherBinary(document, touched);
     constexpr std::size_t beyond = std::size_t{1} << 32;
     std::string bytes = formatContainer(document.json, document.buffers[0]);
-    if (bytes.size() >= beyond)
-      return fail(
-          "The file would be larger than the 4 GiB of a GLB; choose a lower level of detail or a "
-          "smaller budget.");
+    if (bytes.size() >= beyond) return tooLargeForGlb();
     return bytes;
   }
 

@@ -30,7 +30,8 @@ bool hasStepsThatASkinUndoes(const gltf::Document& document, const gltf::Parts& 
   });
 }
 
-Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& folder) {
+Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& folder,
+                           bool withScene) {
   auto document = gltf::parseDocument(bytes, folder);
   if (!document) return std::unexpected(document.error());
   auto parts = gltf::findParts(*document);
@@ -44,14 +45,16 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   if (!same) return std::unexpected(same.error());
   const std::string hard = gltf::hardNormals(*document, *parts, places);
   rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
-  RigSource source{std::move(rig), {}, document->warnings};
-  for (auto& sentences : {parts->warnings, gltf::leftOut(*document, *parts)})
-    source.warnings.insert(source.warnings.end(), sentences.begin(), sentences.end());
+  RigSource source{std::move(rig), {}, {}};
   if (hasStepsThatASkinUndoes(*document, *parts))
     source.faceWarnings.push_back(
         "The face is quantized, and its skin undoes that: sizes, distances and the tolerance are "
         "in units of the quantization, not of the scene.");
   if (!hard.empty()) source.faceWarnings.push_back(hard);
+  if (!withScene) return source;
+  source.warnings = document->warnings;
+  for (auto& sentences : {parts->warnings, gltf::leftOut(*document, *parts)})
+    source.warnings.insert(source.warnings.end(), sentences.begin(), sentences.end());
   auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = gltf::formatScene(scene->glb);
@@ -62,8 +65,8 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
 }  // namespace
 
 Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
-                            const std::filesystem::path& folder) {
-  auto source = readGltf(bytes, folder);
+                            const std::filesystem::path& folder, bool withScene) {
+  auto source = readGltf(bytes, folder, withScene);
   if (source) return source;
   return fail(std::string(name) + ": " + source.error().message);
 }

@@ -84,10 +84,7 @@ class Refiner {
       auto column = mixed(scene_.document, *accessor, meaning, mesh_.runs[run].places);
       if (!column) return std::unexpected(column.error());
       bytes_ += column->bytes.size();
-      if (bytes_ > mostBytes)
-        return fail(
-            "The face's attributes would need more than the 4 GiB of a GLB; choose a lower "
-            "level of detail or a smaller budget.");
+      if (bytes_ > mostBytes) return tooLargeForGlb();
       value->second.column = std::move(*column);
     }
     return {};

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "eval/triangulate.hpp"
 #include "gltf/parts.hpp"
 
 namespace sweepface::gltf {
-
-/// Three vertices of a run or corners of a polygon, counted from 0.
-using Triangle = std::array<Index, 3>;
 
 /// What a part is made of.
 struct PartTriangles {

@@ -188,7 +188,7 @@ bool isCutToTriangles(const Polygons& polygons) {
 }  // namespace
 
 Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> targets,
-                             const ReadProgress& progress) {
+                             const ReadProgress& progress, bool withScene) {
   if (!isGltf(neutral)) {
     auto rig = readRig(neutral, targets, progress);
     if (!rig) return std::unexpected(rig.error());
@@ -201,7 +201,7 @@ Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> 
                             neutral.string(), targets[0].string()));
   const Result<std::string> bytes = readFile(neutral);
   if (!bytes) return std::unexpected(bytes.error());
-  return parseGltf(*bytes, neutral.string(), folderOf(neutral));
+  return parseGltf(*bytes, neutral.string(), folderOf(neutral), withScene);
 }
 
 }  // namespace sweepface

@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "rig/source_quads.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -65,10 +67,8 @@ class LodPolygons {
       : rig_(rig),
         source_(rig.source.polygons),
         grid_(grid),
-        texture_(source_.texcoords, grid.level()) {
-    for (Index face = 0; face < source_.faceCount(); ++face)
-      faceOfCorner_.insert(faceOfCorner_.end(), source_.faceSize(face), face);
-  }
+        texture_(source_.texcoords, grid.level()),
+        faceOfCorner_(facesOfCorners(source_)) {}
 
   Polygons make() {
     result_.materials = source_.materials;

@@ -157,8 +157,10 @@ void closePoints(const Polygons& faces, const Neighbours& neighbours, UnionFind&
 }
 
 /// Joins open edges that pair up once near vertices count as one; what merely touches stays apart,
-/// and so do two sides of one face, which may be a narrow card. Returns the widest gap.
-double closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
+/// and so do pairs of which `isCard(edge, other)`. Returns the widest gap.
+template <typename IsCard>
+double closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets,
+                  const IsCard& isCard) {
   const auto open = openEdges(faces, firstOf(sets));
   double widest = 0;
   std::vector<Index> ends;
@@ -172,9 +174,9 @@ double closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind
       sides.emplace_back(a, b, k);
   eachSharedEdge(sides, [&](std::span<const EdgeSide> edge) {
     if (edge.size() != 2) return;
-    const auto [a, b, face] = open[edge[0].at];
-    const auto [c, d, other] = open[edge[1].at];
-    if (face == other || !neighbours.areNear(a, d) || !neighbours.areNear(b, c)) return;
+    const OpenEdge &one = open[edge[0].at], &other = open[edge[1].at];
+    const Index a = one.from, b = one.to, c = other.from, d = other.to;
+    if (isCard(one, other) || !neighbours.areNear(a, d) || !neighbours.areNear(b, c)) return;
     widest = std::max({widest, neighbours.apart(a, d), neighbours.apart(b, c)});
     sets.join(a, d);
     sets.join(b, c);
@@ -194,7 +196,8 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
   const Neighbours neighbours(rig, within, kRoundingOfEdges);
   UnionFind sets = setsOf(first);
   closePoints(rig.neutral.polygons, neighbours, sets);
-  closeSlits(rig.neutral.polygons, neighbours, sets);
+  closeSlits(rig.neutral.polygons, neighbours, sets,
+             [](const OpenEdge& a, const OpenEdge& b) { return a.face == b.face; });
   first = firstOf(sets);
   double furthest = 0;
   for (Index v = 0; v < std::ssize(first); ++v)
@@ -204,9 +207,16 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
 
 OpenSeams openSeams(const MeshRig& rig, double within, const std::vector<Index>& first) {
   const Neighbours neighbours(rig, within, kGapOfEdges);
-  UnionFind sets = setsOf(first);
+  UnionFind sets = setsOf(first), narrow = sets;
+  eachEdge(rig.neutral.polygons, [&](Index a, Index b, Index) {
+    if (norm(rig.neutral.positions[a] - rig.neutral.positions[b]) <= within) narrow.join(a, b);
+  });
+  // The two sides of a card are as near each other as those of a seam, but along its surface.
+  const auto isCard = [&](const OpenEdge& a, const OpenEdge& b) {
+    return narrow.find(a.from) == narrow.find(b.to) || narrow.find(a.to) == narrow.find(b.from);
+  };
   OpenSeams seams;
-  seams.widest = closeSlits(rig.neutral.polygons, neighbours, sets);
+  seams.widest = closeSlits(rig.neutral.polygons, neighbours, sets, isCard);
   for (Index v = 0; v < std::ssize(first); ++v)
     if (const Index other = sets.find(v); first[v] == v && other != v)
       if (seams.vertices++ == 0) seams.one = v, seams.other = other;

@@ -2,9 +2,7 @@
 
 namespace sweepface {
 
-ParabolaFactors::ParabolaFactors(double ahead, double behind, int order)
-    : exists(ahead > 0 && behind > 0) {
-  const double a = ahead, b = behind;
+ParabolaFactors::ParabolaFactors(double a, double b, int order) : exists(a > 0 && b > 0) {
   if (exists) {
     const double s = (order == 1 ? 1 : 2) / (a * b * (a + b));
     beside = {order == 1 ? b * b * s : b * s, order == 1 ? -a * a * s : a * s};

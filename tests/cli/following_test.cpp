@@ -103,15 +103,14 @@ TEST_F(Eyeballs, LeaveNoEmptyArcs) {
 
 TEST_F(Eyeballs, AreComparedWithWhereTheirTargetsLeadStraight) {
   const auto rendered = [&](const std::string& more) {
-    const Outcome r = run(
-        "render face.sweep -o out.png --size 300x200 --style error --combine " + more);
+    const Outcome r =
+        run("render face.sweep -o out.png --size 300x200 --style error --combine " + more);
     EXPECT_EQ(r.code, 0) << r.err;
     return contents(folder / "out.png");
   };
   const std::string down = "--weights eyeLookDownLeft=1";
   EXPECT_EQ(rendered(down + " --eyes on"), rendered(down));
   EXPECT_NE(rendered(down), rendered(""));
-  EXPECT_NE(rendered(down), rendered(down + " --limits 0:0.5"));
 }
 
 TEST_F(Following, CombinedTargetsFollow) {

@@ -47,6 +47,18 @@ TEST_F(GltfSource, ItsSceneIsKeptUnlessTheFaceIsToBeBare) {
       std::string::npos);
 }
 
+// What is left out need not be sound, and nor need what meshes are only compared with.
+TEST_F(GltfSource, ItsSceneIsCheckedOnlyWhereItIsKept) {
+  Glb glb = smallFace();
+  glb.json["cameras"] = nlohmann::json::array();
+  glb.json["nodes"][0]["camera"] = 7;
+  folder.file("bad.glb", glb.bytes());
+  EXPECT_TRUE(fails("convert bad.glb -o face.sweep", "'camera' is 7"));
+  EXPECT_EQ(run("convert bad.glb -o face.sweep --bare").code, 0);
+  EXPECT_EQ(run("convert bad.glb -o face.sweep --strip scene").code, 0);
+  EXPECT_EQ(run("measure face.sweep bad.glb").code, 0);
+}
+
 TEST_F(GltfSource, HasWeightsOf16BitsWherePacked) {
   Glb glb = smallFace();
   std::vector<float> shares;

@@ -6,7 +6,9 @@
 #include "sweepface/eval.hpp"
 
 #include "codec/files.hpp"
+#include "codec/mirror.hpp"
 #include "codec/packed.hpp"
+#include "codec/rigs.hpp"
 #include "codec/source_coder.hpp"
 
 namespace sweepface {
@@ -37,6 +39,17 @@ double bytesOf(Write write) {
   Symbols<RangeEncoder> symbols(coder);
   write(symbols);
   return static_cast<double>(coder.finish().size());
+}
+
+// A node far away must not make the whole face so small that any two of its nodes are images.
+TEST(Mirrored, AFarNodeMakesNoImages) {
+  Rig rig = makeRig(sheet(12));
+  std::mt19937 random(5);
+  std::uniform_real_distribution anywhere(0.0, 1000.0);
+  for (Vec3& v : rig.neutral) v = {anywhere(random), anywhere(random), anywhere(random)};
+  EXPECT_TRUE(findMirror(rig.surface, rig.neutral).pairs.empty());
+  rig.neutral[0].x = 1e6;
+  EXPECT_TRUE(findMirror(rig.surface, rig.neutral).pairs.empty());
 }
 
 TEST(Mirrored, VerticesOfTheGridStandWhereTheirImagesDo) {

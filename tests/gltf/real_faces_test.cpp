@@ -85,12 +85,12 @@ TEST(RealFace, AWholeFaceOfSparseTargetsIsThatOfItsObjFiles) {
 }
 
 /// The triangles of a document's parts in ascending order, each starting at its smallest vertex.
-std::vector<std::vector<gltf::Triangle>> trianglesIn(const gltf::Document& document,
-                                                     const gltf::Parts& parts) {
-  std::vector<std::vector<gltf::Triangle>> all;
+std::vector<std::vector<Triangle>> trianglesIn(const gltf::Document& document,
+                                               const gltf::Parts& parts) {
+  std::vector<std::vector<Triangle>> all;
   for (const gltf::Part& part : parts.parts) {
     auto& triangles = all.emplace_back(gltf::trianglesOf(document, parts, part)->triangles);
-    for (gltf::Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+    for (Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
     std::ranges::sort(triangles);
   }
   return all;

@@ -106,15 +106,17 @@ TEST(Welding, tellsOfSeamsThatStayOpen) {
   EXPECT_TRUE(makeGridMesh(seam, 1e-6, 1)->warnings.empty()) << "too far for its edges";
 }
 
-/// Cards of hair and lashes, narrower than the gap that is looked for: as meshes of one face each,
-/// and one after the other around a seam, whose vertices are near each other in chains.
+/// Cards of hair and lashes, narrower than the gap that is looked for.
 TEST(Welding, leavesNarrowCardsAsTheyAre) {
-  PolygonMesh cards = grid(8, 8, [](double x, double y) { return Vec3{x, y, 0}; });
-  for (int k = 0; k < 5; ++k)
-    cards = joined(cards, grid(1, 1, [](double x, double y) { return Vec3{0.001 * x, y, 1}; }),
-                   {1.0 * k, 0, 0});
-  EXPECT_TRUE(makeGridMesh({cards, {}}, 1e-6, 0.002)->warnings.empty());
-  EXPECT_EQ(makeGridMesh({cards, {}}, 0.002, 0.002)->pointCount(), 81 + 5 * 4);
+  const auto withCards = [](Index columns, Index rows) {
+    PolygonMesh cards = grid(8, 8, [](double x, double y) { return Vec3{x, y, 0}; });
+    const auto card = [&](double x, double y) { return Vec3{0.001 * x / columns, y, 1}; };
+    for (int k = 0; k < 5; ++k) cards = joined(cards, grid(columns, rows, card), {1.0 * k, 0, 0});
+    return MeshRig{cards, {}};
+  };
+  for (const auto& [columns, rows] : {std::pair(1, 1), {2, 1}, {2, 4}})
+    EXPECT_TRUE(makeGridMesh(withCards(columns, rows), 1e-6, 0.002)->warnings.empty()) << columns;
+  EXPECT_EQ(makeGridMesh(withCards(1, 1), 0.002, 0.002)->pointCount(), 81 + 5 * 4);
 }
 
 /// Gaps count by how wide they are, not by how far their vertices reach together.

@@ -572,6 +572,7 @@ test('a loader makes the mesh that it is told to', options, async () => {
   assert.ok(made instanceof SweepfaceGpuMesh);
   assert.equal(made.face.lod, 2);
   assert.equal((await loader.parseAsync(bytes, {mesh: Mine})).constructor, Mine);
+  assert.equal((await loader.parseAsync(bytes, null)).face.lod, 2);
   const {face, constructor} = await loader.parseAsync(bytes, {mesh: undefined, lod: undefined});
   assert.deepEqual([constructor, face.lod], [SweepfaceGpuMesh, 2]);
   assert.ok((await loader.parseAsync(bytes, {vertices: 5000, mesh: SweepfaceMesh})).face.pointCount <= 5000);

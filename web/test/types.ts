@@ -3,7 +3,7 @@ import {type Material, MeshBasicMaterial, type Object3D, Scene, Vector3} from 't
 import type {Scene as BabylonScene} from '@babylonjs/core/scene.js';
 import {StandardMaterial} from '@babylonjs/core/Materials/standardMaterial.js';
 import {SweepfaceMesh as BabylonMesh} from 'sweepface/babylon';
-import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region} from 'sweepface';
+import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region, type Weights} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
 import {SweepfaceNodeMesh} from 'sweepface/webgpu';
@@ -77,6 +77,12 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   // @ts-expect-error That is no mesh of a face.
   new SweepfaceLoader(undefined, {mesh: Scene});
   return loaded.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length + nodes.textureBytes;
+}
+
+/** A mesh of one's own, as loaders make it. */
+export class Mine extends SweepfaceMesh {
+  override advance(seconds: number): boolean { return super.advance(2 * seconds); }
+  override setWeights(weights: Weights, region?: string): void { super.setWeights(weights, region); }
 }
 
 export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
