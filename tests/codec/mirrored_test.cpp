@@ -44,9 +44,11 @@ double bytesOf(Write write) {
 // A node far away must not make the whole face so small that any two of its nodes are images.
 TEST(Mirrored, AFarNodeMakesNoImages) {
   Rig rig = makeRig(sheet(12));
-  std::mt19937 random(5);
-  std::uniform_real_distribution anywhere(0.0, 1000.0);
-  for (Vec3& v : rig.neutral) v = {anywhere(random), anywhere(random), anywhere(random)};
+  const auto apart = [](Index k) { return 100.0 * k + 10.0 * k * k; };  // unlike from the other end
+  for (Index v = 0; v < rig.surface.storedCount(); ++v) {
+    const Index x = rig.surface.stored(v).node % 13, y = rig.surface.stored(v).node / 13;
+    if (rig.surface.stored(v).isPosition()) rig.neutral[v] = {100.0 * x, apart(y), 0.2 * apart(x)};
+  }
   EXPECT_TRUE(findMirror(rig.surface, rig.neutral).pairs.empty());
   rig.neutral[0].x = 1e6;
   EXPECT_TRUE(findMirror(rig.surface, rig.neutral).pairs.empty());
