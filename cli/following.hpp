@@ -33,6 +33,7 @@ struct Following {
 inline constexpr const char* kNoTurns =
     "No target turns about anything, so --arcs changes nothing.";
 
+/// The limits of --limits; none if it is not given.
 Result<Limits> limitsGiven(const FollowingArguments& a, const Rig& rig);
 
 /// Sets up what was asked for and adds arcs and turning eyes to the targets of the rig. Warns of

@@ -68,9 +68,14 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
   return report;
 }
 
+/// Names as they may be printed.
+std::string listOf(const nlohmann::ordered_json& names, std::string_view separator) {
+  return printable(fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), separator)));
+}
+
 void printText(const nlohmann::ordered_json& r) {
   const auto number = [&](const char* key) { return r[key].get<std::size_t>(); };
-  const auto names = r["targets"].get<std::vector<std::string>>();
+  const nlohmann::ordered_json& names = r["targets"];
   fmt::print("{}\n", r["file"].get<std::string>());
   fmt::print("  source     {} vertices\n", number("vertices"));
   fmt::print("  patches    {} over {} quads\n", number("patches"), number("quads"));
@@ -82,8 +87,7 @@ void printText(const nlohmann::ordered_json& r) {
   fmt::print("  ribbons    {}, {} with shape parameters\n", number("ribbons"),
              number("shapedRibbons"));
   fmt::print("  tolerance  {:.6g}\n", r["tolerance"].get<double>());
-  fmt::print("  targets    {}{}{}\n", names.size(), names.empty() ? "" : ": ",
-             printable(fmt::format("{}", fmt::join(names, ", "))));
+  fmt::print("  targets    {}{}{}\n", names.size(), names.empty() ? "" : ": ", listOf(names, ", "));
   fmt::print("  bytes      {}", number("bytes"));
   if (number("bareBytes") < number("bytes"))
     fmt::print(", {} without the source's order{} and texture coordinates", number("bareBytes"),
@@ -169,9 +173,7 @@ void printList(const nlohmann::ordered_json& list) {
                r["eta"].get<double>(), r["lambda"].get<double>());
   for (const auto& p : list["patches"]) {
     fmt::print("  patch {}:", text(p["name"]));
-    for (const auto& side : p["sides"])
-      fmt::print(" {}", printable(fmt::format(
-                            "{}", fmt::join(side.get<std::vector<std::string>>(), " + "))));
+    for (const auto& side : p["sides"]) fmt::print(" {}", listOf(side, " + "));
     fmt::print("{}\n", away(p));
   }
   for (const auto& c : list["curves"])
