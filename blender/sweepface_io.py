@@ -32,6 +32,7 @@ bl_info = {
 # Faces have y up, as OBJ and glTF do; Blender has z up.
 UPRIGHT = axis_conversion(from_forward="-Z", from_up="Y").to_4x4()
 NEAREST = 0.02  # frames; Blender treats keys nearer than this as one
+STILL = 0.01  # how far a weight may be from where it rests without a warning
 NO_CONSOLE = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # which Windows would open and close again
 SOURCE = "sweepface_file"  # the property of an object that names the file of the face it shows,
 TARGETS = "sweepface_targets"  # and a JSON of the face's targets by the names of the shape keys
@@ -670,8 +671,11 @@ class MotionOperator(ToolOperator):
     def poll(cls, context):
         return is_face(context.active_object)
 
-    def play(self, context, folder, first, *options):
-        """Has the tool animate the face, and keys the result from a frame on; returns its last frame."""
+    def play(self, context, folder, first, *options, end=None):
+        """Has the tool animate the face, and keys the result from a frame on; returns its last frame.
+
+        `end` has the weights of the last frame, also for springs, which never rest.
+        """
         shown, rate = context.active_object, rate_of(context.scene)
         name, path = shown.name, os.path.join(folder, "take.glb")
         check_movable(shown)
@@ -690,6 +694,15 @@ class MotionOperator(ToolOperator):
         driven = [name for name in moving if name in keys and driver_of(keys[name])]
         if driven:
             self.report({"WARNING"}, f"Drivers move the shape keys {', '.join(driven)}, whatever their keys say.")
+        for name, weight in (end or {}).items():
+            if name not in animation.tracks:
+                continue
+            values = animation.tracks[name][1]
+            last = values[-1:, values.shape[1] // 2]
+            if abs(last - weight) > STILL:
+                self.report({"WARNING"}, f"The spring is {abs(last[0] - weight):.2g} away from {name} when the time is over; give it "
+                                         "more seconds or another damping.")
+            last[:] = weight
         for name, (times, values) in animation.tracks.items():
             key = keys.get(name)
             if key and (name in moving or curve_of(key) or key.value):  # others stay at rest as they are
@@ -711,7 +724,7 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
         ("spring", "Spring", "A damped spring, which may overshoot"),
         ("bounce", "Bounce", "Falls onto the pose and bounces off"),
         ("linear", "Linear", "At an even speed")])
-    seconds: FloatProperty(name="Seconds", description="How long it takes", default=0.5, min=0.01, max=3600)
+    seconds: FloatProperty(name="Seconds", description="How long it takes; a spring is stopped then", default=0.5, min=0.01, max=3600)
     frequency: FloatProperty(name="Frequency", description="Of a spring: swings a second", default=2, min=0.01, max=100)
     damping: FloatProperty(name="Damping", description="Of a spring: below 1 it overshoots", default=0.5, min=0, max=10)
     restitution: FloatProperty(name="Restitution", description="Of a bounce: the part of the speed that is left", default=0.4,
@@ -750,7 +763,7 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
         if self.law == "bounce":
             options += ["--restitution", self.restitution]
         told = lambda weights: ",".join(f"{name}={weight:.9g}" for name, weight in weights.items() if start[name] or end[name])
-        yield from self.play(context, folder, first, "--from", told(start), "--to", told(end), *options)
+        yield from self.play(context, folder, first, "--from", told(start), "--to", told(end), *options, end=end)
 
 
 class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):

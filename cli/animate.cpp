@@ -20,9 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct AnimateArguments {
-  std::string face, output, keys;
+  std::string face, output, keys, regions;
   PerformanceArguments what;
-  RegionArguments regions;
   FollowingArguments following;
   HeadArguments head;
   double framesPerSecond = 0, keyTolerance = 0;  // 0: not given
@@ -74,11 +73,12 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
       "  sweepface animate face.sweep --clip take.csv --smooth -o take.glb");
 }
 
-/// The times of the meshes or keys.
-Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Performance& performance) {
+/// The times of the meshes or keys, at `usualRate` frames a second if neither a rate nor a number
+/// of frames is given; 0: 31 frames.
+Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Performance& performance,
+                                        double usualRate) {
   constexpr double kMostFrames = 1e6;
-  double rate = a.framesPerSecond;
-  if (rate == 0 && a.frames == 0 && !a.what.clip.empty()) rate = 30;
+  const double rate = a.namesFrames() ? a.framesPerSecond : usualRate;
   if (performance.seconds * rate > kMostFrames)
     return fail(
         fmt::format("{:.6g} s at {:.6g} frames a second are more than {:.0f} frames; play "
@@ -107,6 +107,9 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   return times;
 }
 
+/// Of meshes and of sampled keys in a .glb.
+double usualRateOf(const AnimateArguments& a) { return a.what.clip.empty() ? 0 : 30; }
+
 // ---- Meshes ----
 
 Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Performance& performance,
@@ -131,7 +134,7 @@ void printFrames(const AnimateArguments& a, std::size_t count, const Performance
 Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
-  const Result<std::vector<double>> times = sampleTimes(a, performance);
+  const Result<std::vector<double>> times = sampleTimes(a, performance, usualRateOf(a));
   if (!times) return std::unexpected(times.error());
   const auto head = headTrack(a.head, rig, performance, *times);
   if (!head) return std::unexpected(head.error());
@@ -176,7 +179,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   } else {
     const bool own = !performance.frameTimes.empty() && !a.namesFrames();
     const Result<std::vector<double>> times =
-        own ? ownKeyTimes(performance) : sampleTimes(a, performance);
+        own ? ownKeyTimes(performance) : sampleTimes(a, performance, usualRateOf(a));
     if (!times) return std::unexpected(times.error());
     clip = sample(performance, rig, *times);
   }
@@ -207,9 +210,7 @@ Result<void> animateUsd(const AnimateArguments& a, const Rig& rig, const Perform
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
   UsdOptions options = a.rigFile.usd(a.lod);
   options.timeCodesPerSecond = frameRate(a, performance);
-  AnimateArguments asked = a;
-  if (!a.namesFrames()) asked.framesPerSecond = options.timeCodesPerSecond;
-  const Result<std::vector<double>> times = sampleTimes(asked, performance);
+  const auto times = sampleTimes(a, performance, options.timeCodesPerSecond);
   if (!times) return std::unexpected(times.error());
   const Clip clip = sample(performance, rig, *times);
   options.clip = &clip;
@@ -228,10 +229,8 @@ Result<void> animateUsd(const AnimateArguments& a, const Rig& rig, const Perform
 Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
   const bool own =
       !performance.frameTimes.empty() && !a.namesFrames() && isOfKind(a.what.clip, ".csv");
-  AnimateArguments asked = a;
-  if (!own && !a.namesFrames()) asked.framesPerSecond = a.what.writtenRate();
   const Result<std::vector<double>> times =
-      own ? performance.frameTimes : sampleTimes(asked, performance);
+      own ? performance.frameTimes : sampleTimes(a, performance, a.what.writtenRate());
   if (!times) return std::unexpected(times.error());
   Clip clip = sample(performance, rig, *times);
   if (performance.pose) addAngles(clip, performance.pose);
@@ -257,8 +256,7 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
   const bool turns = a.head.on();
   if (!a.head.pivot.empty() && !turns)
     return fail("The model turns about --pivot with --head on only; leave --pivot out.");
-  if (isOfKind(a.output, ".csv") &&
-      (!a.regions.file.empty() || a.following.any() || turns || a.lod > 0))
+  if (isOfKind(a.output, ".csv") && (!a.regions.empty() || a.following.any() || turns || a.lod > 0))
     return fail(
         "A .csv holds weights and angles as they were set; leave --regions, --arcs, --eyes, "
         "--combine, --head and --lod out.");
@@ -301,7 +299,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
     return fail(fmt::format("{} has regions, which a .csv cannot tell apart; leave them out there.",
                             a.what.clip));
   if (isFile)
-    if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.what.clipNames, a.regions.file},
+    if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.what.clipNames, a.regions},
                               {".glb", ".usda", ".usd", ".usdz", ".csv"}, !a.quiet);
         !ok)
       return std::unexpected(ok.error());

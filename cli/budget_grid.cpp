@@ -29,17 +29,19 @@ Index cutMost(const Wireframe& wireframe, const Density& density) {
 void addBudget(CLI::App& app, BudgetArguments& a, std::initializer_list<CLI::Option*> others) {
   const auto add = [&](const std::string& name, double& value, const std::string& type,
                        const std::string& what) {
-    CLI::Option* const option =
-        app.add_option(name, value, what)->type_name(type)->check(positiveNumber());
+    CLI::Option* const option = app.add_option(name, value, what)->type_name(type);
     for (CLI::Option* const other : others) option->excludes(other);
     return option;
   };
   CLI::Option* const vertices =
-      add("--vertices", a.vertices, "N", "Write the best mesh with at most N vertices");
+      add("--vertices", a.vertices, "N", "Write the best mesh with at most N vertices")
+          ->transform(wholeNumber(1, 1 << 24));
   CLI::Option* const error =
       add("--error", a.error, "E",
-          "Write a mesh whose edges are no further from the surface than this");
+          "Write a mesh whose edges are no further from the surface than this")
+          ->check(positiveNumber());
   add("--edge-length", a.edgeLength, "L", "Write a mesh without longer edges along curves")
+      ->check(positiveNumber())
       ->excludes(vertices)
       ->excludes(error);
   error->excludes(vertices);

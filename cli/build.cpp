@@ -69,6 +69,11 @@ Result<int> runBuild(const BuildArguments& a) {
   const Result<std::string> text = readFile(utf8Path(a.drawing));
   if (!text) return std::unexpected(text.error());
   const Result<Drawing> drawing = parseDrawing(*text, a.drawing);
+  if (!drawing && isOfKind(a.drawing, ".sweep"))
+    return fail(
+        fmt::format("{} is a face already; write its wireframe as a text first: `sweepface "
+                    "wireframe {} -o face.wire.json`.",
+                    a.drawing, a.drawing));
   if (!drawing) return std::unexpected(drawing.error());
   Result<Built> built = build(*drawing);
   if (!built) return std::unexpected(built.error());

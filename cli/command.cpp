@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 /// Parses a text that must be a number from end to end; inf and nan do not count.
 template <typename Number>
 bool parse(std::string_view text, Number& number) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
@@ -153,11 +154,13 @@ void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& descr
   app.add_option("--uv-bits", bits, description)->transform(wholeNumber(8, 16))->type_name("N");
 }
 
-Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts) {
-  if (!bits || !parts.uv) return {};
-  return fail(
-      "--uv-bits says how texture coordinates are stored, and --strip uv leaves them out; give one "
-      "of the two.");
+Result<Strip> stripGiven(const std::string& strip, const std::optional<int>& uvBits) {
+  const Result<Strip> parts = strip.empty() ? Strip{} : parseStrip(strip);
+  if (parts && parts->uv && uvBits)
+    return fail(
+        "--uv-bits says how texture coordinates are stored, and --strip uv leaves them out; give "
+        "one of the two.");
+  return parts;
 }
 
 bool canBeListed(const std::string& name) {
@@ -253,6 +256,11 @@ Result<Rig> opened(std::string_view bytes, const std::string& path) {
         fmt::format("{} is a file of meshes, not a face; make one of it first: `sweepface convert "
                     "{} -o face.sweep`.",
                     path, path));
+  if (!rig && isOfKind(path, ".json"))
+    return fail(
+        fmt::format("{} is a text, not a face; if it is a wireframe, make a face of it first: "
+                    "`sweepface build {} -o face.sweep`.",
+                    path, path));
   if (!rig) return rig;
   // A file of a few bytes can declare patches with any number of quads.
   const double quads = static_cast<double>(rig->surface.wireframe().quadCount());
@@ -306,7 +314,8 @@ bool hasDecimalComma(std::string_view text) {
   });
 }
 
-/// A suggestion for the first name that is no target.
+}  // namespace
+
 std::string hintAtName(std::string_view text, const Rig& rig) {
   const std::vector<std::string> names = rig.targetNames();
   for (const auto part : text | std::views::split(',')) {
@@ -320,8 +329,6 @@ std::string hintAtName(std::string_view text, const Rig& rig) {
   }
   return "";
 }
-
-}  // namespace
 
 Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig) {
   Result<Weights> weights = parseWeights(rig, text);

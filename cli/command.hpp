@@ -77,8 +77,12 @@ CLI::Option* addSubdivide(CLI::App& app, int& levels);
 void addThreads(CLI::App& app, int& threads);
 void addStrip(CLI::App& app, std::string& strip);
 void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description);
-/// Fails if --uv-bits is given for texture coordinates that are stripped.
-Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts);
+/// "Did you mean 'jawOpen'? " for the first name in a list NAME=...,... that is no target; or
+/// nothing.
+std::string hintAtName(std::string_view items, const Rig& rig);
+
+/// What --strip leaves out. Fails if --uv-bits is given for texture coordinates that are.
+Result<Strip> stripGiven(const std::string& strip, const std::optional<int>& uvBits);
 
 /// Whether a target of this name can appear in a list of weights, NAME=W,...; and the message if it
 /// cannot.

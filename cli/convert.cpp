@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -69,8 +70,9 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
                "Store in the file what expressions turn about (the jaw about its hinge, lids about "
                "the eyeball), for programs that play it; some 25 bytes each");
   addThreads(app, a.threads);
-  app.add_flag("--no-shapes", a.noShapes,
-               "Do not search for shape parameters: faster, slightly larger files");
+  app.add_flag(
+      "--no-shapes", a.noShapes,
+      "Do not search for shape parameters: faster; normals are slightly further from the mesh's");
   app.add_flag("--bare", a.bare,
                "Leave out what a .glb or .gltf has besides the face: materials, textures, skins, "
                "other meshes ...");
@@ -196,9 +198,8 @@ std::vector<std::string> warningsOf(const ConvertArguments& a, const Strip& part
 
 Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
+  const Result<Strip> parts = stripGiven(a.strip, a.uvBits);
   if (!parts) return std::unexpected(parts.error());
-  if (auto ok = checkUvBits(a.uvBits, *parts); !ok) return std::unexpected(ok.error());
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
   Result<RigSource> source = readSource(a, *parts, *bar);
   if (!source) return std::unexpected(source.error());
@@ -225,10 +226,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const Result<Verified> verified =
       verify(bytes, a.output, source->rig, conversion->rig, conversion->rig.tolerance);
   if (!verified) return std::unexpected(verified.error());
-  catchInterrupts();  // writing must not end half-way
-  if (interrupted) return kInterrupted;
-  if (auto written = writeAndReadBack(utf8Path(a.output), bytes); !written)
-    return std::unexpected(written.error());
+  if (const auto written = writeAndReadBack(utf8Path(a.output), bytes); !written || *written != 0)
+    return written;
   bar.reset();
 
   std::vector<std::string>& warnings = conversion->warnings;
@@ -257,6 +256,10 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
 Result<int> runConvert(const ConvertArguments& a) {
   if (auto ok = checkOutput(a.output, a.meshes.files(), {".sweep"}, a.json || !a.quiet); !ok)
     return std::unexpected(ok.error());
+  std::error_code ignored;
+  for (const std::string& word : a.meshes.files())
+    if (a.arcs && (word == "on" || word == "off") && !std::filesystem::exists(word, ignored))
+      return fail(fmt::format("Here --arcs stands alone; leave '{}' out.", word));
   if (!a.packs() && (a.uvBits || a.normalTolerance > 0))
     return fail(fmt::format("{} is for packed files; give --pack or --max-bytes as well.",
                             a.uvBits ? "--uv-bits" : "--normal-tolerance"));

@@ -114,16 +114,29 @@ Result<void> writeRig(const ExportArguments& a, const Rig& rig, const Weights& w
   return {};
 }
 
-/// The file names of the first targets: their own names, altered where file systems would refuse
-/// the file or `convert` would skip it in a folder.
+/// The file name of a target: its own name, altered where file systems would refuse the file or
+/// `convert` would skip it in a folder.
+std::string fileNameOf(const std::string& target) {
+  constexpr std::string_view ending = ".obj";
+  constexpr std::size_t longest = 255 - ending.size();  // bytes
+  std::string name = target;
+  std::ranges::replace_if(name, isForbiddenInFileNames, '_');
+  if (name.starts_with('.')) name[0] = '_';
+  if (isDeviceName(name)) name.insert(0, "_");
+  if (name.size() > longest) {
+    std::size_t end = longest;
+    while ((name[end] & 0xC0) == 0x80) --end;  // inside of a character
+    name.resize(end);
+  }
+  return name.append(ending);
+}
+
+/// Those of the first targets.
 Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < count; ++k) {
     const std::string& target = rig.targets[k].name;
-    std::string name = target + ".obj";
-    std::ranges::replace_if(name, isForbiddenInFileNames, '_');
-    if (name.starts_with('.')) name[0] = '_';
-    if (isDeviceName(name)) name.insert(0, "_");
+    std::string name = fileNameOf(target);
     if (const auto twin = std::ranges::find(names, asCompared(name), asCompared);
         twin != names.end())
       return fail(fmt::format("The targets '{}' and '{}' would both be in {}; write a .glb.",

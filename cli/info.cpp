@@ -37,6 +37,13 @@ void addOptions(CLI::App& app, InfoArguments& a) {
       "  sweepface info face.sweep --near 2.4,-5.4,7.5");
 }
 
+/// The targets of which the file records that they turn.
+std::vector<std::string> turningTargets(const Rig& rig) {
+  std::vector<std::string> names;
+  for (const Turn& turn : rig.turns) names.push_back(rig.targets[turn.target].name);
+  return names;
+}
+
 nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::size_t bytes,
                                 const std::vector<FilePart>& parts) {
   const Surface& surface = rig.surface;
@@ -61,8 +68,9 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
        std::ranges::count_if(w.ribbons, [](const Shape& s) { return s != Shape{}; })},
       {"tolerance", rig.tolerance},
       {"targets", rig.targetNames()},
+      {"turns", turningTargets(rig)},
       {"bytes", bytes},
-      {"bareBytes", bareBytes(rig)},
+      {"bareBytes", std::min(bytes, bareBytes(rig))},
       {"parts", nlohmann::ordered_json::object()}};
   for (const FilePart& part : parts) report["parts"][part.name] = part.bytes;
   return report;
@@ -75,7 +83,7 @@ std::string listOf(const nlohmann::ordered_json& names, std::string_view separat
 
 void printText(const nlohmann::ordered_json& r) {
   const auto number = [&](const char* key) { return r[key].get<std::size_t>(); };
-  const nlohmann::ordered_json& names = r["targets"];
+  const nlohmann::ordered_json &names = r["targets"], &turns = r["turns"];
   fmt::print("{}\n", r["file"].get<std::string>());
   fmt::print("  source     {} vertices\n", number("vertices"));
   fmt::print("  patches    {} over {} quads\n", number("patches"), number("quads"));
@@ -88,6 +96,7 @@ void printText(const nlohmann::ordered_json& r) {
              number("shapedRibbons"));
   fmt::print("  tolerance  {:.6g}\n", r["tolerance"].get<double>());
   fmt::print("  targets    {}{}{}\n", names.size(), names.empty() ? "" : ": ", listOf(names, ", "));
+  if (!turns.empty()) fmt::print("  turns      {}: {}\n", turns.size(), listOf(turns, ", "));
   fmt::print("  bytes      {}", number("bytes"));
   if (number("bareBytes") < number("bytes"))
     fmt::print(", {} without the source's order{} and texture coordinates", number("bareBytes"),

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -18,6 +18,12 @@ std::string printable(std::string_view given) {
     if (code < ' ' || code == 0x7f || isWide) text.replace(k, isWide ? 2 : 1, "?");
   }
   return text;
+}
+
+std::string firstOf(std::span<const std::string> names) {
+  constexpr std::size_t most = 6;
+  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
 namespace {

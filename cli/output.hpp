@@ -3,6 +3,7 @@
 #include <chrono>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,9 @@ namespace sweepface::cli {
 
 /// Replaces control characters by '?', so that those in names do not reach the terminal.
 std::string printable(std::string_view text);
+
+/// Names with commas between, of many only the first, and how many there are more.
+std::string firstOf(std::span<const std::string> names);
 
 /// Prints "sweepface: sentence" to the error stream, made printable.
 void printError(std::string_view sentence);

@@ -67,9 +67,8 @@ void printLooks(const Looks& now, const Looks& before) {
 }
 
 Result<int> packAndWrite(const PackArguments& a) {
-  const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
+  const Result<Strip> parts = stripGiven(a.strip, a.uvBits);
   if (!parts) return std::unexpected(parts.error());
-  if (auto ok = checkUvBits(a.uvBits, *parts); !ok) return std::unexpected(ok.error());
   const Result<std::string> file = readFile(utf8Path(a.face));
   if (!file) return std::unexpected(file.error());
   const Result<Rig> before = opened(*file, a.face);
@@ -92,10 +91,8 @@ Result<int> packAndWrite(const PackArguments& a) {
   const std::string bytes = encode(finished);
   const Result<Verified> verified = verify(bytes, a.output, meshes, rig, *tolerance, &*before);
   if (!verified) return std::unexpected(verified.error());
-  catchInterrupts();  // writing must not end half-way
-  if (interrupted) return kInterrupted;
-  if (auto written = writeAndReadBack(utf8Path(a.output), bytes); !written)
-    return std::unexpected(written.error());
+  if (const auto written = writeAndReadBack(utf8Path(a.output), bytes); !written || *written != 0)
+    return written;
   bar.reset();
   if (auto lost = lostMovement(meshes, verified->kept); !lost.empty()) printWarning(lost);
   if (parts->order && !parts->scene && !before->scene.empty()) printWarning(sceneIsLost(a.face));

@@ -12,6 +12,8 @@
 #include "sweepface/regional_clips.hpp"
 #include "sweepface/timeline.hpp"
 
+#include "output.hpp"
+
 namespace sweepface::cli {
 namespace {
 
@@ -60,12 +62,7 @@ struct ReadClip {
 
 Result<ReadClip> readClip(const PerformanceArguments& a, const std::string& text,
                           std::span<const std::string> targets, std::span<const Region> regions) {
-  std::vector<std::string> names;
-  std::vector<Matter> matters;
-  for (const Region& region : regions) {
-    names.push_back(region.name);
-    matters.push_back(region.matter);
-  }
+  const std::vector<Matter> matters = mattersOf(regions);
   const auto called = [&](Result<RegionalClips> clips, bool isAuthored) -> Result<ReadClip> {
     if (!clips) return fail(fmt::format("{}: {}", a.clip, clips.error().message));
     return ReadClip{std::move(*clips), isAuthored};
@@ -73,18 +70,12 @@ Result<ReadClip> readClip(const PerformanceArguments& a, const std::string& text
   if (isOfKind(a.clip, ".json") && isTimeline(text)) {
     const auto timeline = readTimeline(a, text);
     if (!timeline) return std::unexpected(timeline.error());
-    return called(inRegions(*timeline, names, matters), true);
+    return called(inRegions(*timeline, namesOf(regions), matters), true);
   }
   auto capture = readCapture(a, text);
   if (capture) capture = withNames(std::move(*capture), a, targets);
   if (!capture) return std::unexpected(capture.error());
   return called(inRegions(std::move(*capture), matters, {a.frequency, a.damping}), false);
-}
-
-std::string firstOf(std::span<const std::string> names) {
-  constexpr std::size_t most = 6;
-  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
-  return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
 }  // namespace

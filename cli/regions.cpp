@@ -14,9 +14,9 @@ namespace {
 
 /// The regions of --regions, or else of the timeline played; without either, the whole face.
 Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const std::string& clip,
-                                        const RegionArguments& a, const Rig& rig) {
-  const bool own = a.file.empty() && isOfKind(what.clip, ".json");
-  const std::string& file = own ? what.clip : a.file;
+                                        const std::string& regionFile, const Rig& rig) {
+  const bool own = regionFile.empty() && isOfKind(what.clip, ".json");
+  const std::string& file = own ? what.clip : regionFile;
   if (file.empty()) return dividedFace(rig, {});
   const Result<std::string> text = file == what.clip ? clip : readFile(utf8Path(file));
   if (!text) return std::unexpected(text.error());
@@ -31,11 +31,11 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
 
 /// Notes that --regions replaces the regions of the timeline.
 std::vector<std::string> notesOnOwn(const PerformanceArguments& what, const std::string& clip,
-                                    const RegionArguments& a) {
-  if (a.file.empty() || a.file == what.clip || !isOfKind(what.clip, ".json")) return {};
+                                    const std::string& regionFile) {
+  if (regionFile.empty() || regionFile == what.clip || !isOfKind(what.clip, ".json")) return {};
   const auto own = parseRegions(clip, what.clip);
   if (!own || own->empty()) return {};
-  return {fmt::format("{}: its own regions are not used, but those of {}.", what.clip, a.file)};
+  return {fmt::format("{}: its own regions are not used, but those of {}.", what.clip, regionFile)};
 }
 
 /// The motion of all regions: a performance each, of K weights.
@@ -111,8 +111,8 @@ std::vector<Weights> toldWeights(const PerformanceArguments& what, const Rig& ri
 }
 
 Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const std::string& clip,
-                                      const RegionArguments& a, const Rig& rig) {
-  auto regions = readRegions(what, clip, a, rig);
+                                      const std::string& regionFile, const Rig& rig) {
+  auto regions = readRegions(what, clip, regionFile, rig);
   if (!regions) return regions;
   const auto isHeavy = [](const Region& region) { return region.matter.mass > 1; };
   if (!what.clip.empty() && what.tellsSpring && std::ranges::none_of(*regions, isHeavy))
@@ -125,21 +125,21 @@ Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const st
 
 }  // namespace
 
-void addRegions(CLI::App& app, RegionArguments& a) {
-  app.add_option("--regions", a.file,
+void addRegions(CLI::App& app, std::string& file) {
+  app.add_option("--regions", file,
                  "A .json with 'regions': parts of the face that are heavier, stiffer or later "
                  "than the rest; a timeline may have its own")
       ->check(notEmpty())
       ->type_name("FILE");
 }
 
-Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& a,
+Result<Performance> perform(const PerformanceArguments& what, const std::string& regionFile,
                             const FollowingArguments& following, Rig& rig) {
   // Read once, as it may be a pipe.
   const Result<std::string> clip =
       what.clip.empty() ? std::string() : readFile(utf8Path(what.clip));
   if (!clip) return std::unexpected(clip.error());
-  auto regions = regionsOf(what, *clip, a, rig);
+  auto regions = regionsOf(what, *clip, regionFile, rig);
   if (!regions) return std::unexpected(regions.error());
   // In combinations, even a target that moves nothing by itself may show.
   std::vector<std::string> still;
@@ -155,7 +155,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   Performance whole = parts.performances.size() == 1 ? std::move(parts.performances.front())
                                                      : together(std::move(parts), *regions, rig);
   std::ranges::move(still, std::back_inserter(whole.notes));
-  std::ranges::move(notesOnOwn(what, *clip, a), std::back_inserter(whole.notes));
+  std::ranges::move(notesOnOwn(what, *clip, regionFile), std::back_inserter(whole.notes));
   return partOf(std::move(whole), what);
 }
 

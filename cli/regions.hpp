@@ -7,15 +7,12 @@
 
 namespace sweepface::cli {
 
-/// Parts of the face that move in their own way.
-struct RegionArguments {
-  std::string file;
-};
-void addRegions(CLI::App& app, RegionArguments& a);
+/// The file that names parts of the face that move in their own way.
+void addRegions(CLI::App& app, std::string& file);
 
 /// What is played, with its followers and with the regions of the file, or else of a timeline.
 /// Their targets are added to the rig, and the performance has a weight for each of them.
-Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& regions,
+Result<Performance> perform(const PerformanceArguments& what, const std::string& regionFile,
                             const FollowingArguments& following, Rig& rig);
 
 }  // namespace sweepface::cli

@@ -44,10 +44,10 @@ void addOptions(CLI::App& app, RenderArguments& a) {
   app.add_option("--from", a.from, "Where it starts; the neutral if not given")
       ->needs(to)
       ->type_name("NAME=W,...");
-  oneEachTime(
-      app.add_option("--law", a.laws,
-                     "How it moves: newton, brake, accelerate-brake, linear; several, separated by "
-                     "commas, stand one above the other; newton if not given"))
+  oneEachTime(app.add_option(
+                  "--law", a.laws,
+                  "How it moves: newton, brake, accelerate-brake, linear-force, linear; several, "
+                  "separated by commas, stand one above the other; newton if not given"))
       ->delimiter(',')
       ->needs(to)
       ->type_name("LAW,...");

@@ -15,8 +15,8 @@ Result<TimeLaw> stripLaw(const std::string& name) {
   const Result<TimeLaw> law = timeLawFromName(name);
   if (law) return law;
   return fail(
-      fmt::format("There is no strip of a law '{}'; there are linear, newton, brake and "
-                  "accelerate-brake.",
+      fmt::format("There is no strip of a law '{}'; there are linear, newton, brake, "
+                  "accelerate-brake and linear-force.",
                   name));
 }
 

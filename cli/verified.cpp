@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "interrupts.hpp"
 
 namespace sweepface::cli {
 
@@ -49,13 +50,15 @@ void printDistance(const Verified& verified) {
              tolerance, worst.vertex, shape);
 }
 
-Result<void> writeAndReadBack(const fs::path& path, std::string_view bytes) {
-  if (auto written = writeFile(path, bytes); !written) return written;
+Result<int> writeAndReadBack(const fs::path& path, std::string_view bytes) {
+  catchInterrupts();  // it must not end half-way
+  if (interrupted) return kInterrupted;
+  if (auto written = writeFile(path, bytes); !written) return std::unexpected(written.error());
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return {};
+  if (!fs::is_regular_file(path, ignored)) return 0;
   const Result<std::string> back = readFile(path);
   if (!back) return std::unexpected(back.error());
-  if (*back == bytes) return {};
+  if (*back == bytes) return 0;
   return fail(fmt::format("{} reads back differently from what was written; check the disk.",
                           path.string()));
 }

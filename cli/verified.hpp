@@ -30,7 +30,8 @@ std::string nameOfShape(const Rig& rig, Index target);
 
 void printDistance(const Verified& verified);
 
-/// Writes a file and makes sure that the disk holds the same bytes.
-Result<void> writeAndReadBack(const std::filesystem::path& path, std::string_view bytes);
+/// Writes a file and makes sure that the disk holds the same bytes: 0, or kInterrupted if the work
+/// was to stop, when nothing is written.
+Result<int> writeAndReadBack(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace sweepface::cli

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 
@@ -52,6 +53,13 @@ std::string objLines(const CurveNetwork& net) {
   return text;
 }
 
+/// Whether the face holds what came from a mesh, which no drawing has.
+bool isOfMesh(const Rig& rig) {
+  const SourceMesh& source = rig.source;
+  return !std::ranges::is_sorted(source.gridVertex) || !source.polygons.texcoords.empty() ||
+         !rig.scene.empty();
+}
+
 /// Writes all of a face as text: the neutral, its expressions, names and shape parameters.
 Result<int> writeDrawing(const WireframeArguments& a, const Rig& rig) {
   if (!a.weights.empty() || a.lod > 0)
@@ -65,6 +73,9 @@ Result<int> writeDrawing(const WireframeArguments& a, const Rig& rig) {
     fmt::print("{}: {} nodes, {} curves, {} patches, {} expressions\n", a.output,
                drawing.nodes.size(), drawing.curves.size(), drawing.patches.size(),
                drawing.expressions.size());
+  if (!a.quiet && isOfMesh(rig))
+    fmt::print("without what the mesh had besides; sweepface build --source {} adds that again\n",
+               a.face);
   return 0;
 }
 

@@ -2,9 +2,9 @@
 include(CMakePackageConfigHelpers)
 
 # Headers of the converting library, which a runtime-only install leaves out.
-set(converting_headers mesh.hpp subdivision.hpp io.hpp gltf.hpp fit.hpp measure.hpp drawing.hpp edit.hpp strip.hpp
-    region_file.hpp laws.hpp sweepface_clips.h)
-set(picture_headers picture.hpp report.hpp plot.hpp)
+set(converting_headers mesh.hpp subdivision.hpp lod_polygons.hpp io.hpp gltf.hpp usd.hpp fit.hpp measure.hpp drawing.hpp
+    edit.hpp strip.hpp region_file.hpp sweepface_clips.h)
+set(picture_headers picture.hpp report.hpp plot.hpp laws.hpp)
 
 set(installed_libraries sweepface_runtime)
 set(installed_components runtime)

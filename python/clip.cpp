@@ -10,6 +10,7 @@
 #include "sweepface/head.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/keys.hpp"
+#include "sweepface/region_file.hpp"
 #include "sweepface/regional_clips.hpp"
 
 #include "bindings.hpp"
@@ -19,10 +20,15 @@ namespace {
 
 // ---- Reading and making ----
 
-Result<Clip> played(const Timeline& timeline) {
+Result<Clip> played(const Timeline& timeline, const std::string& text, const std::string& name) {
   auto clips = inRegions(timeline, std::vector<std::string>{"rest"}, std::vector<Matter>(1));
-  if (!clips) return std::unexpected(clips.error());
-  return std::move(clips->whole);
+  if (!clips) return fail(fmt::format("{}: {}", name, clips.error().message));
+  Clip& whole = clips->whole;
+  whole.warnings = notesOnClip(whole, matchClip(whole, {}), clips->missed, {}, name);
+  if (const auto regions = parseRegions(text, name); regions && !regions->empty())
+    whole.warnings.push_back(fmt::format(
+        "{}: its regions are left out; read_timeline and Timeline.in_regions play them.", name));
+  return std::move(whole);
 }
 
 Result<Clip> parsedClip(const std::filesystem::path& path, const std::string& text,
@@ -30,15 +36,17 @@ Result<Clip> parsedClip(const std::filesystem::path& path, const std::string& te
   const std::string kind = extensionOf(path), name = path.string();
   if (kind == ".glb" || kind == ".gltf")
     return parseGltfClip(text, name, folderOf(path), animation);
+  if (!animation.empty())
+    return fail(fmt::format("{} has no animations to choose from, as a .glb has.", name));
   if (kind == ".csv") return parseLiveLinkCsv(text, name, framesPerSecond);
   if (kind != ".json")
     return fail(fmt::format("{} is neither a .csv, a .json, a .glb nor a .gltf.", name));
   if (!isTimeline(text)) return parseClipJson(text, name, framesPerSecond);
+  if (framesPerSecond > 0)
+    return fail(fmt::format("{} is a timeline, which has no frames a second.", name));
   const auto timeline = parseTimeline(text, name);
   if (!timeline) return std::unexpected(timeline.error());
-  auto clip = played(*timeline);
-  if (!clip) return fail(fmt::format("{}: {}", name, clip.error().message));
-  return clip;
+  return played(*timeline, text, name);
 }
 
 void checkRate(double framesPerSecond) {
@@ -82,8 +90,13 @@ Clip smoothed(Clip clip, double cutoff, double speedGain, double speedCutoff) {
 }
 
 std::vector<NameMap::Drive> drivesFrom(const py::object& driven) {
+  if (driven.is_none()) return {};
   if (py::isinstance<py::str>(driven)) return {{py::cast<std::string>(driven)}};
   std::vector<NameMap::Drive> drives;
+  if (py::isinstance<py::list>(driven)) {
+    for (const auto& target : driven) drives.push_back({textFrom(target, "A target's name")});
+    return drives;
+  }
   for (const auto& [target, factor] : mappingFrom(driven, "What a name drives"))
     drives.push_back({textFrom(target, "A target's name"), numberFrom(factor, "A factor")});
   return drives;
@@ -205,7 +218,7 @@ void addClip(py::module_& m) {
           },
           "path"_a, "frames_per_second"_a = 60,
           "Writes a capture of the Live Link Face app, whose timecodes count frames of this rate; "
-          "the clip's own frames stay.")
+          "the clip's own frames stay. Another rate than 60 must be given when it is read.")
       .def("__repr__", [](const Clip& clip) {
         return fmt::format("<sweepface.Clip: {} frames of {} weights, {:.2f} s>", clip.times.size(),
                            clip.names.size(), clip.seconds());
@@ -231,7 +244,7 @@ void addClipsOfRigs(py::module_& m) {
            "a name of its own.")
       .def("renamed", &withNames, "names"_a, "rig"_a,
            "For rigs whose targets are called otherwise: {'jawOpen': 'mouth-open', 'cheekPuff': "
-           "{'puff': 0.8}}.");
+           "{'puff': 0.8}}; a list names several, None none.");
 }
 
 }  // namespace sweepface::python

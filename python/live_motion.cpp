@@ -47,7 +47,8 @@ void addLiveMotion(py::module_& m) {
       "Weights [K] that take new goals at any instant and go on from where they are, without a "
       "jump in position or velocity. Every path is a closed form of the time, so the frame rate "
       "changes nothing.")
-      .def(py::init([](const Doubles& weights) {
+      .def(py::init([](const py::object& given) {
+             const Doubles weights = weightsOfMotion(given, "Weights");
              return valueOf(MotionState::make(numbersIn(weights, "Weights")));
            }),
            "weights"_a, "At rest there.")
@@ -60,9 +61,10 @@ void addLiveMotion(py::module_& m) {
           "seconds"_a, "Lets time pass.")
       .def(
           "move_to",
-          [](MotionState& state, const Doubles& goals, const std::string& drive,
+          [](MotionState& state, const py::object& goals, const std::string& drive,
              const py::kwargs& told) {
-            valueOf(state.moveTo(numbersIn(goals, "Goals"), driveFrom(drive, told)));
+            const Doubles row = weightsOfMotion(goals, "Goals");
+            valueOf(state.moveTo(numbersIn(row, "Goals"), driveFrom(drive, told)));
           },
           "goals"_a, "drive"_a = "spring",
           "Sends all weights to goals [K] by a drive: cut, newton, linear-force, accelerate-brake, "
@@ -71,15 +73,15 @@ void addLiveMotion(py::module_& m) {
           "spring), restitution (0.4; bounce), and delay (0).")
       .def(
           "move_one",
-          [](MotionState& state, std::size_t weight, double goal, const std::string& drive,
+          [](MotionState& state, const py::object& weight, double goal, const std::string& drive,
              const py::kwargs& told) {
-            valueOf(state.moveTo(weight, goal, driveFrom(drive, told)));
+            valueOf(state.moveTo(weightOfMotion(weight), goal, driveFrom(drive, told)));
           },
           "weight"_a, "goal"_a, "drive"_a = "spring", "The same for a single weight.")
       .def(
           "push",
-          [](MotionState& state, std::size_t weight, double velocityChange, double drag) {
-            valueOf(state.push(weight, velocityChange, drag));
+          [](MotionState& state, const py::object& weight, double velocityChange, double drag) {
+            valueOf(state.push(weightOfMotion(weight), velocityChange, drag));
           },
           "weight"_a, "velocity_change"_a, "drag"_a,
           "An impulse: adds to a weight's velocity, which drag, per second, takes away again.")

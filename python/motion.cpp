@@ -27,8 +27,9 @@ void addMotion(py::module_& m) {
   py::class_<Motion>(m, "Motion",
                      "Weights [K] that move from one set to another by a law; at times outside [0, "
                      "seconds] they rest at the nearer end.")
-      .def(py::init([](const Doubles& start, const Doubles& end, const std::string& law,
+      .def(py::init([](const py::object& from, const py::object& to, const std::string& law,
                        double seconds, double mass) {
+             const Doubles start = weightsOfMotion(from, "start"), end = weightsOfMotion(to, "end");
              return valueOf(Motion::make(numbersIn(start, "start"), numbersIn(end, "end"),
                                          valueOf(timeLawFromName(law)), seconds, mass));
            }),

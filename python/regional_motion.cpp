@@ -28,7 +28,8 @@ struct NamedMotion {
   }
 };
 
-NamedMotion motionOf(const Doubles& weights, const py::object& listed) {
+NamedMotion motionOf(const py::object& given, const py::object& listed) {
+  const Doubles weights = weightsOfMotion(given, "Weights");
   const std::vector<Region> regions = dividedRegionsIn(listed);
   return {namesOf(regions),
           valueOf(RegionalMotion::make(numbersIn(weights, "Weights"), mattersOf(regions)))};
@@ -63,39 +64,41 @@ void addRegionalMotion(py::module_& m) {
           "seconds"_a, "Lets time pass.")
       .def(
           "move_to",
-          [](NamedMotion& named, const Doubles& goals, const std::string& drive,
+          [](NamedMotion& named, const py::object& goals, const std::string& drive,
              const py::kwargs& told) {
-            valueOf(named.motion.moveTo(numbersIn(goals, "Goals"), driveFrom(drive, told)));
+            const Doubles row = weightsOfMotion(goals, "Goals");
+            valueOf(named.motion.moveTo(numbersIn(row, "Goals"), driveFrom(drive, told)));
           },
           "goals"_a, "drive"_a = "spring",
           "Sends all weights to goals [K] by a drive with its numbers, as LiveMotion.move_to does.")
       .def(
           "move_one",
-          [](NamedMotion& named, std::size_t weight, double goal, const std::string& drive,
+          [](NamedMotion& named, const py::object& weight, double goal, const std::string& drive,
              const py::kwargs& told) {
-            valueOf(named.motion.moveTo(weight, goal, driveFrom(drive, told)));
+            valueOf(named.motion.moveTo(weightOfMotion(weight), goal, driveFrom(drive, told)));
           },
           "weight"_a, "goal"_a, "drive"_a = "spring", "The same for a single weight.")
       .def(
           "move_in",
-          [](NamedMotion& named, const py::object& region, std::size_t weight, double goal,
+          [](NamedMotion& named, const py::object& region, const py::object& weight, double goal,
              const std::string& drive, const py::kwargs& told) {
             const std::size_t number = named.numberOf(region);
-            valueOf(named.motion.moveTo(number, weight, goal, driveFrom(drive, told)));
+            valueOf(
+                named.motion.moveTo(number, weightOfMotion(weight), goal, driveFrom(drive, told)));
           },
           "region"_a, "weight"_a, "goal"_a, "drive"_a = "spring",
           "The same in one region alone, by its name or number.")
       .def(
           "put_in",
-          [](NamedMotion& named, const py::object& region, std::size_t weight, double value) {
-            valueOf(named.motion.put(named.numberOf(region), weight, value));
+          [](NamedMotion& named, const py::object& region, const py::object& weight, double value) {
+            valueOf(named.motion.put(named.numberOf(region), weightOfMotion(weight), value));
           },
           "region"_a, "weight"_a, "value"_a,
           "Puts a weight there at once in one region, whatever its delay.")
       .def(
           "push",
-          [](NamedMotion& named, std::size_t weight, double velocityChange, double drag) {
-            valueOf(named.motion.push(weight, velocityChange, drag));
+          [](NamedMotion& named, const py::object& weight, double velocityChange, double drag) {
+            valueOf(named.motion.push(weightOfMotion(weight), velocityChange, drag));
           },
           "weight"_a, "velocity_change"_a, "drag"_a,
           "An impulse, which a heavy region feels less, and a late one at once.")

@@ -43,18 +43,6 @@ std::vector<Region> dividedBy(const Rig& rig, const py::object& listed) {
   return valueOf(dividedFace(rig, regionsIn(listed)));
 }
 
-std::vector<std::string> namesOf(std::span<const Region> regions) {
-  std::vector<std::string> names;
-  for (const Region& region : regions) names.push_back(region.name);
-  return names;
-}
-
-std::vector<Matter> mattersOf(std::span<const Region> regions) {
-  std::vector<Matter> matters;
-  for (const Region& region : regions) matters.push_back(region.matter);
-  return matters;
-}
-
 namespace {
 
 /// An array of weights [F, R, K], [R, K] or, of a face that is not divided, [F, K].
@@ -163,7 +151,10 @@ py::array_t<double> painted(const Rig& rig, const py::object& parts, const py::o
   const Brush brush = brushFrom(parts, points, line, curves, nodes, whole, fade, over);
   if (bands.is_none()) return arrayOf(released([&] { return valueOf(paint(rig, brush)); }));
   const int count = as<int>(bands, "bands", "a whole number");
-  const auto all = released([&] { return valueOf(paintBands(rig, brush, count)); });
+  const auto all = released([&] {
+    if (count == 1) return std::vector<std::vector<double>>{valueOf(paint(rig, brush))};
+    return valueOf(paintBands(rig, brush, count));
+  });
   std::vector<double> shares;
   for (const std::vector<double>& band : all) shares.insert(shares.end(), band.begin(), band.end());
   return arrayOf(std::span<const double>(shares),

@@ -17,9 +17,6 @@ std::vector<Region> dividedRegionsIn(const py::object& listed);
 /// The face divided into regions that Python lists, the rest first.
 std::vector<Region> dividedBy(const Rig& rig, const py::object& listed);
 
-std::vector<std::string> namesOf(std::span<const Region> regions);
-std::vector<Matter> mattersOf(std::span<const Region> regions);
-
 /// Weights of all regions in one frame or many.
 struct RegionalWeights {
   std::size_t frames = 1;

@@ -100,7 +100,8 @@ void saveUsd(const Rig& rig, const std::filesystem::path& path, const RigFile& g
   if (!timeCodesPerSecond.is_none() && !given.clip)
     throw Failure("time_codes_per_second is for the frames of a clip; give one.");
   const bool isArchive = extensionOf(path) == ".usdz";
-  if (!isArchive && extensionOf(path) != ".usd") checkKind(path, ".usda");
+  if (!isArchive && extensionOf(path) != ".usd" && extensionOf(path) != ".usda")
+    throw Failure(path.string() + " must end in .usda, .usd or .usdz; choose another name.");
   const RigFileOptions file(rig, given);
   auto options = file.make<UsdOptions>();
   if (!timeCodesPerSecond.is_none())

@@ -1,5 +1,6 @@
 #include "sweepface/timeline.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "sweepface/io.hpp"
@@ -36,12 +37,14 @@ Timeline parsedTimeline(const std::string& text, const std::string& name) {
 py::array_t<double> regionalWeightsOver(const RegionalClips& clips, const Rig& rig,
                                         const py::object& times) {
   const ClipMatch match = matchWith(clips.whole, rig, clips.missed);
+  const Clip& longest = *std::ranges::max_element(clips.ofRegions, {}, &Clip::seconds);
   const std::size_t regions = clips.ofRegions.size(), targets = rig.targets.size();
   auto rows =
-      rowsOver(clips.whole, times, regions * targets, [&](double seconds, std::span<double> row) {
-        for (std::size_t r = 0; r < regions; ++r)
-          match.spread(clips.ofRegions[r], seconds, row.subspan(r * targets, targets));
-      });
+      rowsOver(times.is_none() ? longest : clips.whole, times, regions * targets,
+               [&](double seconds, std::span<double> row) {
+                 for (std::size_t r = 0; r < regions; ++r)
+                   match.spread(clips.ofRegions[r], seconds, row.subspan(r * targets, targets));
+               });
   return rows.reshape(
       {rows.shape(0), static_cast<py::ssize_t>(regions), static_cast<py::ssize_t>(targets)});
 }
@@ -57,9 +60,10 @@ void addTimeline(py::module_& m) {
       .def_readonly("of_regions", &RegionalClips::ofRegions, "A clip for each region.")
       .def_property_readonly("seconds", &RegionalClips::seconds,
                              "Until the last region has arrived.")
-      .def("weights_of", &regionalWeightsOver, "rig"_a, "times"_a = py::none(),
-           "Weights of the rig's targets at times in every region, as Clip.weights_of has them: "
-           "[T, R, K].")
+      .def(
+          "weights_of", &regionalWeightsOver, "rig"_a, "times"_a = py::none(),
+          "Weights of the rig's targets at times (those of the frames of the region that ends last "
+          "if not given) in every region, as Clip.weights_of has them: [T, R, K].")
       .def("__repr__", [](const RegionalClips& clips) {
         return fmt::format("<sweepface.RegionalClips: {} regions, {:.2f} s>",
                            clips.ofRegions.size(), clips.seconds());

@@ -89,6 +89,14 @@ std::span<const double> numbersIn(const Doubles& array, const char* what) {
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
+Doubles weightsOfMotion(const py::object& given, const char* what) {
+  return as<Doubles>(given, what, "an array [K]; Rig.weights makes one of a dict");
+}
+
+std::size_t weightOfMotion(const py::object& given) {
+  return as<std::size_t>(given, "A weight", "a number; Rig.target tells that of a name");
+}
+
 py::array_t<double> arrayOfPoints(std::span<const Vec3> points) {
   py::array_t<double> array({points.size(), std::size_t{3}});
   double* x = array.mutable_data();

@@ -106,6 +106,10 @@ std::vector<Vec3> pointsFrom(const Doubles& array, const char* what);
 /// The numbers of an array [N].
 std::span<const double> numbersIn(const Doubles& array, const char* what);
 
+/// What motions are given, which know no names: weights [K], and the number of a weight.
+Doubles weightsOfMotion(const py::object& given, const char* what);
+std::size_t weightOfMotion(const py::object& given);
+
 /// [N × 3]
 py::array_t<double> arrayOfPoints(std::span<const Vec3> points);
 

@@ -7,17 +7,17 @@ export type DriveKind = 'cut' | 'newton' | 'linear-force' | 'accelerate-brake' |
 export interface Drive {
   /** 'spring' unless given. */
   kind?: DriveKind | undefined;
-  /** Seconds before it sets out; a drive that still waits is dropped when the next comes for the same weight. */
+  /** Seconds before it sets out (0 unless given); a drive that still waits is dropped when the next comes for the same weight. */
   delay?: number | undefined;
-  /** Seconds until it arrives; not for 'cut' and 'spring'. */
+  /** Seconds until it arrives, 'bounce': until it first hits (0.3 unless given); not for 'cut' and 'spring'. */
   seconds?: number | undefined;
-  /** 'accelerate-brake': when the second force takes over, as a fraction of `seconds`. */
+  /** 'accelerate-brake': when the second force takes over, as a fraction of `seconds` (0.5 unless given). */
   turn?: number | undefined;
-  /** 'spring': oscillations a second without the damper. */
+  /** 'spring': oscillations a second without the damper (2 unless given). */
   frequency?: number | undefined;
-  /** 'spring': below 1 it overshoots, above 1 it creeps. */
+  /** 'spring': below 1 it overshoots, above 1 it creeps (1 unless given). */
   damping?: number | undefined;
-  /** 'bounce': the share of the speed kept at each bounce, in [0, 1 - 1e-9]. */
+  /** 'bounce': the share of the speed kept at each bounce, in [0, 1 - 1e-9] (0.4 unless given). */
   restitution?: number | undefined;
 }
 
@@ -78,7 +78,8 @@ export interface ReadonlyPose {
 /** Files that are not packed, `edgeLength`, `error`, `vertices`, `arcs`, `combine`, `eyes` and `regions` load
  * sweepface_full.wasm instead of sweepface.wasm. */
 export interface LoadOptions {
-  /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
+  /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64 and
+   * 16,777,216 vertices. */
   lod?: number | undefined;
   /** One of these instead of `lod`, as fine as it demands: no curve has a segment longer than `edgeLength`, no edge of
    * a triangle is further than `error` from the surface (both in model units), or the best with at most `vertices`

@@ -136,14 +136,22 @@ async function openIn(module, bytes, options) {
   return new Shared(instance, bytes, options);
 }
 
+/** Throws if the bytes are of a kind that is easily taken for a face. */
+function refuseOthers(bytes, name) {
+  const start = String.fromCharCode(...bytes.subarray(0, 64));
+  if (/^\s*<(!doctype|html)/i.test(start))
+    throw new Error(`${name} is a page of HTML, as servers send for what they do not have; check the address.`);
+  if (start.startsWith('glTF') || (!start.startsWith('SWEEPFC') && /\.(gltf|obj|ply|fbx|usd[acz]?)$/i.test(name)))
+    throw new Error(`${name} is a file of meshes, not a face; make one of it first: sweepface convert.`);
+}
+
 /** Opens a file in the module that it and the options need. */
 export async function open(given, givenOptions) {
   const bytes = bytesOf(given)?.slice();  // the caller may change or transfer it while the module loads
   if (!bytes)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
   const options = read(givenOptions), {wasm} = options;
-  if (/^\s*<(!doctype|html)/i.test(String.fromCharCode(...bytes.subarray(0, 64))))
-    throw new Error(`${options.name} is a page of HTML, as servers send for what they do not have; check the address.`);
+  refuseOthers(bytes, options.name);
   if (isGiven(wasm) || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
   const usual = await compile(wasm, 'usual').catch((error) => {
     if (isCompiled('full')) return compile(wasm, 'full');  // at hand already, perhaps from when there was a network

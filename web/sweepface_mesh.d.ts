@@ -12,8 +12,8 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   /** For reading: what is set there does not show. */
   readonly face: Sweepface;
   /** The weights by the index of their names, as other meshes have them; of several regions, those of the first. A
-   * number that you change here counts from the next `update` on, in all regions; what is not a number changes
-   * nothing. */
+   * number that you change here counts from the next `update` on, in all regions; what is no weight (no number,
+   * or beyond ±1,000,000) changes nothing. */
   morphTargetInfluences: number[];
   morphTargetDictionary: Record<string, number>;
   /** Call it once a frame with the seconds since the last, as for `advance`. It costs nothing while nothing moves, and

@@ -26,6 +26,10 @@ export function readTimeline(source, options) {
   if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
   if (regions !== undefined && !Array.isArray(regions)) throw fail('\'regions\'', 'are not a list');
   if (!isObject(poses)) throw fail('\'poses\'', 'are not an object');
+  for (const [pose, weights] of Object.entries(poses)) {
+    if (!isObject(weights)) throw fail(`pose '${pose}'`, 'is not an object of weights');
+    sizes.set(weights, countOf(weights, `pose '${pose}'`, fail));
+  }
   const end = seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
   let goals = 0;
   const read = events.map((json, k) => {
@@ -70,23 +74,25 @@ function readEvent(event, file, place, failAt) {
 
 /**
  * The goals of an event: weights by name, given directly or by the name of a pose that has them. Adds their number to
- * `sizes`, by which a pose that many events go to is checked once.
+ * `sizes`, which has those of the poses.
  */
 function readGoals(wanted, {poses, sizes}, place, failAt) {
   if (typeof wanted === 'string') {
     if (!Object.prototype.hasOwnProperty.call(poses, wanted))
       throw failAt(place, `goes to a pose '${wanted}' that 'poses' does not have`);
-    const pose = `pose '${wanted}'`;
-    if (!isObject(poses[wanted])) throw failAt(pose, 'is not an object of weights');
-    return readGoals(poses[wanted], {poses, sizes}, pose, failAt);
+    return poses[wanted];
   }
   if (!isObject(wanted)) throw failAt(place, 'goes neither to weights nor to a pose');
-  if (sizes.has(wanted)) return wanted;
-  const goals = Object.entries(wanted);
+  sizes.set(wanted, countOf(wanted, place, failAt));
+  return wanted;
+}
+
+/** How many weights there are, all of them sound. */
+function countOf(weights, place, failAt) {
+  const goals = Object.entries(weights);
   for (const [weight, goal] of goals)
     if (!isWeight(goal)) throw failAt(place, `has a weight '${weight}' that is not a number within ±1,000,000`);
-  sizes.set(wanted, goals.length);
-  return wanted;
+  return goals.length;
 }
 
 /** Whether a region is all of a face that is not divided. */

@@ -23,7 +23,7 @@ struct Budget {
     error,       ///< no edge of a triangle is further than this from the surface at its middle, in
                  ///< model units, nor an arc from its segments, measured at seven points of each
                  ///< (one, where an edge is cut into more than four). Triangles are hardly further
-                 ///< (on the ICT head by an eighth at most)
+                 ///< (on the ICT head by an eighth, with eyes and teeth by half)
     vertices     ///< as close to the surface as this many vertices allow
   };
   Kind kind = Kind::vertices;

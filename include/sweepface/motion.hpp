@@ -16,13 +16,14 @@ enum class TimeLaw {
   newton,           ///< constant force from rest: s²
   brake,            ///< constant force to rest: 2s − s²
   accelerateBrake,  ///< constant force to the middle, then its opposite: from rest to rest
+  linearForce,      ///< a force linear in time: 3s² − 2s³, from rest to rest
 };
 
 /// Every law, in the order of the enum.
 inline constexpr std::array timeLaws{TimeLaw::linear, TimeLaw::newton, TimeLaw::brake,
-                                     TimeLaw::accelerateBrake};
+                                     TimeLaw::accelerateBrake, TimeLaw::linearForce};
 
-/// "linear", "newton", "brake" or "accelerate-brake"; the error lists them.
+/// "linear", "newton", "brake", "accelerate-brake" or "linear-force"; the error lists them.
 Result<TimeLaw> timeLawFromName(std::string_view name);
 std::string_view nameOf(TimeLaw law) noexcept;
 

@@ -98,7 +98,8 @@ Result<CrossDerivatives> derivativesFromControls(const Vec3& boundary, const Vec
 std::pair<Vec3, Vec3> controlsFromDerivatives(const Vec3& boundary, const CrossDerivatives& across,
                                               ControlSpacing spacing);
 
-/// Parameters of control curves by mean chord length, as a share of the sweep's length.
+/// Parameters of control curves by mean chord length, as a share of the sweep's length: positive
+/// ones, to be negated beside the boundary at u = 1.
 Result<ControlSpacing> spacingFromChords(std::span<const Vec3> boundary,
                                          std::span<const Vec3> control2,
                                          std::span<const Vec3> control3, double length);

@@ -27,6 +27,9 @@ struct Region {
   std::vector<double> shares;  ///< [nodes] how much of each node is its own, in [0, 1]
 };
 
+std::vector<std::string> namesOf(std::span<const Region> regions);  ///< [R]
+std::vector<Matter> mattersOf(std::span<const Region> regions);     ///< [R]
+
 /// Where a region is: everything that is named, and what is near it.
 struct Brush {
   std::vector<std::string> parts;                     ///< materials and groups of the source

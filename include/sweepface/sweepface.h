@@ -318,7 +318,7 @@ enum sweepface_drive_kinds {
 typedef struct sweepface_drive {
   sweepface_drive_kind kind;
   double delay;       /* seconds before it sets out; the next drive replaces one that still waits */
-  double seconds;     /* until it arrives; not for CUT and SPRING */
+  double seconds;     /* until it arrives, BOUNCE: until it first hits; not for CUT and SPRING */
   double turn;        /* ACCELERATE_BRAKE: when the second force takes over, as a fraction of
                          `seconds` */
   double frequency;   /* SPRING: oscillations a second without the damper */

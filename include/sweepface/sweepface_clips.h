@@ -28,7 +28,7 @@ SWEEPFACE_API sweepface_status sweepface_rig_region_matter(const sweepface_rig* 
  * read it. */
 typedef struct sweepface_clip sweepface_clip;
 
-/* How a clip is read; timelines ignore all of it. */
+/* How a clip is read; timelines ignore all of it, and others what is not for their kind. */
 typedef struct sweepface_clip_options {
   double frames_per_second; /* of a CSV's timecodes; 0: as these tell, or else 60. Required for
                                MediaPipe frames without times */
@@ -47,7 +47,8 @@ SWEEPFACE_API sweepface_clip_options sweepface_clip_usual_options(void);
 /* Reads a clip from memory, which may be reused afterwards: a CSV of Live Link Face, a JSON of
  * MediaPipe or Audio2Face, a timeline (JSON) or an animation of a .glb that has weights; told apart
  * by their content. Names are matched with the rig's targets. It is an error if none matches,
- * unless all are angles of the head and the eyes. `options` may be NULL; `name` is what messages
+ * unless all are angles of the head and the eyes. A timeline that has regions of its own needs a
+ * rig that sweepface_rig_divide_by() has divided by it. `options` may be NULL; `name` is what messages
  * call it, NULL or empty: "The clip". */
 SWEEPFACE_API sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes,
                                                    size_t size, const char* name,

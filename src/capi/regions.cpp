@@ -57,13 +57,7 @@ Result<std::vector<std::vector<double>>> paintAll(const Rig& rig, const Brush& b
 }  // namespace
 
 Division capi::divisionOf(const Rig& rig, const std::vector<Region>& regions) {
-  Division division;
-  for (const Region& region : regions) {
-    division.names.push_back(region.name);
-    division.matters.push_back(region.matter);
-  }
-  division.influences = influencesOf(rig.surface, regions);
-  return division;
+  return {namesOf(regions), influencesOf(rig.surface, regions), mattersOf(regions)};
 }
 
 void capi::divide(sweepface_rig& rig, Division division) {

@@ -224,20 +224,28 @@ class Weaver {
       const auto first = woven_.placeOf(d_, start), second = woven_.placeOf(d_, end);
       const bool drawn = !curve.points.empty() || !hasJets(start) || !hasJets(end);
       if (curve.collapsed || !drawn || !first || !second) continue;
+      const auto coincides = [&](const Vec3& point, const Vec3& before) {
+        return norm(point - before) <= 1e-9 * size;
+      };
+      // In a drawing with a node that is far too far away, all others coincide.
+      const auto measure = [&](const Vec3& point, const Vec3& before) {
+        if (point == before) return std::string();
+        return fmt::format(", in a drawing that is {:.3g} wide", size);
+      };
       Vec3 last = *first;
       std::size_t number = 0;
       for (const Vec3& point : curve.points) {
         ++number;
-        if (norm(point - last) <= 1e-9 * size)
+        if (coincides(point, last))
           return refuse(curve.place,
-                        fmt::format("point {} of curve '{}' coincides with the one before it",
-                                    number, curve.name));
+                        fmt::format("point {} of curve '{}' coincides with the one before it{}",
+                                    number, curve.name, measure(point, last)));
         last = point;
       }
-      if (norm(*second - last) <= 1e-9 * size)
+      if (coincides(*second, last))
         return refuse(curve.place, fmt::format("the last point of curve '{}' coincides with the "
-                                               "one before it; a curve needs a length",
-                                               curve.name));
+                                               "one before it{}; a curve needs a length",
+                                               curve.name, measure(*second, last)));
     }
     return {};
   }

@@ -103,7 +103,7 @@ class Converter {
     for (const NormalTry& next : normalTries(options_, usualLimit_)) {
       auto conversion = convertWithin(*mesh, next);
       if (!conversion) {
-        if (progress_.cancelled() || !(isLimited || isBeyond_)) return conversion;
+        if (progress_.cancelled() || !(isLimited || reach_.isBeyond)) return conversion;
         failure = conversion.error();
       } else if (!isLimited || normalRms_ <= options_.normalTolerance) {
         progress_.end();
@@ -152,7 +152,7 @@ class Converter {
     for (Index v = 0; v < mesh.vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
     if (!limits.smooth) data.slopeWeight = 0.1;
-    auto fitted = fitSurface(layout, data, limits, options_.chooseShapes, progress_, isBeyond_);
+    auto fitted = fitSurface(layout, data, limits, options_.chooseShapes, progress_, reach_);
     if (!fitted) return std::unexpected(fitted.error());
     const auto stored = fitted->solution.rows();
     if (static_cast<std::size_t>(stored) * data.poses > codec::kMostVectors)
@@ -210,7 +210,7 @@ class Converter {
   double tolerance_ = 0, usualLimit_ = 0;
   double aim_ = 0;                             // the tolerance less the rounding of merged vertices
   std::map<double, Result<Conversion>> fits_;  // by their limits on normals
-  bool isBeyond_ = false;                      // whether the last fit could not get within it
+  FitReach reach_;
   double normalRms_ = 0;
   double nearest_ = std::numeric_limits<double>::infinity();  // of the attempts not guided
 };

@@ -49,10 +49,9 @@ class SurfaceFitter {
         progress_(progress) {}
 
   // Solve, measure, refine.
-  Result<Fitted> run(bool& isBeyond) {
-    isBeyond = false;
+  Result<Fitted> run(FitReach& reach) {
+    reach.isBeyond = false;
     ExtraJets extra = slopesWhereUneven();
-    double nearest = std::numeric_limits<double>::infinity();
     int smoothing = 0;  // rounds in which the promise held
     for (int round = 0; round < kMostRounds; ++round) {
       if (progress_.cancelled()) return fail("the conversion was interrupted");
@@ -62,7 +61,7 @@ class SurfaceFitter {
       if (!fitted) return fitted;
       const DraftErrors errors = measured(*fitted);
       const bool within = errors.largestDistance <= limits_.distance;
-      nearest = std::min(nearest, errors.largestDistance);
+      reach.nearest = std::min(reach.nearest, errors.largestDistance);
       const double share = within ? 1 : std::sqrt(limits_.distance / errors.largestDistance);
       progress_.reportFit("fitting", 0.9 * share);
       const Index changed = refine(layout_, fitted->draft, data_, errors, limits_, extra);
@@ -70,11 +69,11 @@ class SurfaceFitter {
       if (changed == 0) break;
       if (within && ++smoothing >= kMostForNormals) limits_.angle = 180;
     }
-    isBeyond = true;
+    reach.isBeyond = true;
     return fail(fmt::format(
         "a tolerance of {:.3g} is out of reach: the surface comes no nearer to all vertices than "
         "{:.3g}; allow a larger one",
-        data_.tolerance, nearest));
+        data_.tolerance, reach.nearest));
   }
 
  private:
@@ -126,8 +125,8 @@ class SurfaceFitter {
 }  // namespace
 
 Result<Fitted> fitSurface(Layout& layout, SourceData& data, const RefineLimits& limits,
-                          bool choosesShapes, ConversionProgress& progress, bool& isBeyond) {
-  return SurfaceFitter(layout, data, limits, choosesShapes, progress).run(isBeyond);
+                          bool choosesShapes, ConversionProgress& progress, FitReach& reach) {
+  return SurfaceFitter(layout, data, limits, choosesShapes, progress).run(reach);
 }
 
 }  // namespace sweepface

@@ -141,7 +141,7 @@ Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
   if (given != vertices)
     return fail("the neutral has ", given, " vertices, the model was made from ", vertices,
                 "; give the mesh it was converted from",
-                given < vertices ? ", and --subdivide if it was subdivided" : "");
+                given < vertices ? ", subdivided as it was then" : "");
   std::vector<std::pair<Weights, const std::vector<Vec3>*>> shapes;
   shapes.emplace_back(Weights(rig.targets.size(), 0.0), &source.neutral.positions);
   for (const MeshTarget& t : source.targets) {
@@ -219,7 +219,7 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   if (!rig.source.ownOrder)
     return fail(
         "the face has no source order, it was left out, so that nobody knows which vertex is "
-        "which; make the file again without --strip order");
+        "which; make the file again with its order");
   if (options.facets && !knowsQuads(rig))
     return fail(
         "the face does not tell which of its source's polygons lies where, so that its surface "

@@ -8,6 +8,7 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 
+#include "rig/number.hpp"
 #include "rig/source_quads.hpp"
 
 namespace sweepface {
@@ -106,7 +107,7 @@ Result<void> stripOrder(Rig& rig) {
 Result<Strip> parseStrip(std::string_view text) {
   Strip parts;
   for (const auto word : text | std::views::split(',')) {
-    const std::string_view name(word.begin(), word.end());
+    const std::string_view name = trimmed({word.begin(), word.end()});
     if (name == "order")
       parts.order = true;
     else if (name == "uv")

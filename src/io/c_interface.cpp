@@ -87,8 +87,14 @@ Result<RegionalClips> readForRegions(const Division& division,
   }
   const auto timeline = parseTimeline(bytes, name);
   if (!timeline) return std::unexpected(timeline.error());
+  const bool isDivided = !division.names.empty();
   const std::vector<std::string> undivided{"rest"};
-  return named(inRegions(*timeline, division.names.empty() ? undivided : division.names, matters));
+  auto clips = named(inRegions(*timeline, isDivided ? division.names : undivided, matters));
+  if (const auto own = parseRegions(bytes, name); clips && !isDivided && own && !own->empty())
+    clips->whole.warnings.push_back(
+        std::string(name) +
+        ": its regions count only if the face is divided by them before it is read.");
+  return clips;
 }
 
 const char* nameAt(const std::vector<std::string>& names, uint32_t index) {

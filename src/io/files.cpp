@@ -53,9 +53,11 @@ bool isFull(int code) {
 }
 
 std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
-  const char* const advice = isFull(code) ? "; make room there, or choose another place"
-                             : code == EACCES || code == EPERM || code == EROFS ? kInUse
-                                                                                : "";
+  const bool isForbidden = code == EACCES || code == EPERM || code == EROFS;
+  const char* const advice = isFull(code)           ? "; make room there, or choose another place"
+                             : isForbidden          ? kInUse
+                             : code == ENAMETOOLONG ? "; choose a shorter name"
+                                                    : "";
   return fail(fmt::format("Cannot write {}: {}{}.", path.string(), reason(code), advice));
 }
 

@@ -77,7 +77,8 @@ constexpr std::array<std::string_view, 61> kColumns{"EyeBlinkLeft",
                                                     "RightEyeRoll"};
 
 /// A column and the weights of the clip of which it shows the largest. Weights that are not always
-/// equal have columns of their own as well, which take precedence when read.
+/// equal have columns of their own as well, which take precedence when read. So do names without a
+/// side, which columns of both sides show: for faces whose targets have none either.
 struct Column {
   std::string heading;
   std::vector<std::size_t> sources;
@@ -86,7 +87,7 @@ struct Column {
 std::vector<Column> columnsOf(const Clip& clip) {
   Clip app;
   for (const std::string_view name : kColumns) app.names.emplace_back(name);
-  const ClipMatch match = matchClip(app, clip.names);
+  const ClipMatch match = matchClip(app, clip.names), back = matchClip(clip, app.names);
   const std::size_t n = clip.names.size();
   const auto alike = [&](std::size_t a, std::size_t b) {
     for (std::size_t f = 0; f < clip.times.size(); ++f)
@@ -102,12 +103,21 @@ std::vector<Column> columnsOf(const Clip& clip) {
         column.sources, [&](std::size_t source) { return alike(source, column.sources[0]); });
     for (const std::size_t source : column.sources) shown[source] = isAll;
   }
+  for (Column& column : columns) {
+    if (!column.sources.empty()) continue;
+    const auto place = static_cast<Index>(&column - columns.data());
+    for (std::size_t k = 0; k < n; ++k)
+      if (std::ranges::find(back.targets[k], place) != back.targets[k].end())
+        column.sources.push_back(k);
+  }
   for (std::size_t k = 0; k < n; ++k)
     if (!shown[k]) columns.push_back({clip.names[k], {k}});
   return columns;
 }
 
-/// HH:MM:SS:FF.fff, rounded to a thousandth of a frame.
+constexpr double kDay = 86400;  // seconds
+
+/// HH:MM:SS:FF.fff, rounded to a thousandth of a frame. Midnight is passed as on a clock.
 struct Timecode {
   double seconds, frames;
 
@@ -120,7 +130,7 @@ struct Timecode {
     return seconds != other.seconds ? seconds > other.seconds : frames > other.frames;
   }
   std::string text() const {
-    const auto count = static_cast<int>(seconds);
+    const auto count = static_cast<int>(std::fmod(seconds, kDay));
     return fmt::format("{:02}:{:02}:{:02}:{:06.3f}", count / 3600, count / 60 % 60, count % 60,
                        frames);
   }
@@ -137,9 +147,13 @@ std::string cellOf(const std::string& heading) {
 Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
   if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
   if (clip.times.empty()) return fail("The clip has no frames.");
-  if (!(clip.times.front() >= 0 &&
-        Timecode(clip.times.back(), io::FrameClock(framesPerSecond)).seconds < 86400))
-    return fail("The times of a recording lie from 0 to below a day; cut the clip.");
+  const auto secondsAt = [&](double time) {
+    return Timecode(time, io::FrameClock(framesPerSecond)).seconds;
+  };
+  if (!(clip.times.front() >= 0 && secondsAt(clip.times.front()) < kDay))
+    return fail("The times of a recording begin from 0 to below a day; shift those of the clip.");
+  if (!(secondsAt(clip.times.back()) - secondsAt(clip.times.front()) < kDay))
+    return fail("A recording lasts less than a day; cut the clip.");
   std::set<std::string> headings;
   for (const Column& column : columns) {
     const std::string read(io::trimmed(column.heading));

@@ -47,6 +47,9 @@ Result<void> checkTargets(const NameMap& map, std::span<const std::string> targe
       if (std::ranges::find(targets, target) == targets.end())
         return fail(fmt::format("{}: '{}' drives '{}', which is no target of the face.", map.called,
                                 name, target));
+      else if (!(std::abs(factor) <= kMostFactor))
+        return fail(fmt::format("{}: '{}' drives '{}' by what is no number within ±1000.",
+                                map.called, name, target));
   return {};
 }
 

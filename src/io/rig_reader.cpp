@@ -44,6 +44,10 @@ std::unexpected<Error> unknownKind(const fs::path& path) {
   if (fs::is_directory(path, error))
     return fail(fmt::format("{} is a folder; name the mesh of the neutral first, then its targets.",
                             path.string()));
+  if (extensionOf(path) == ".sweep")
+    return fail(fmt::format(
+        "{} is a face already, and holds no mesh; export it as an .obj or a .glb first.",
+        path.string()));
   return fail(fmt::format(
       "{} is neither an .obj nor a .ply file, nor a .glb or .gltf; export the mesh as one of them.",
       path.string()));

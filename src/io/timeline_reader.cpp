@@ -38,8 +38,7 @@ class TimelineReader {
       return failAt("'events'", "must be a list of at least one event");
     if (const auto regions = json_.find("regions"); regions != json_.end() && !regions->is_array())
       return failAt("'regions'", "are not a list");
-    if (const auto poses = json_.find("poses"); poses != json_.end() && !poses->is_object())
-      return failAt("'poses'", "are not an object");
+    if (auto ok = readPoses(); !ok) return std::unexpected(ok.error());
     const double end = timeline.seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
     std::multimap<double, TimelineEvent> inOrder;  // keeps the order of simultaneous events
     for (std::size_t k = 0; k < events->size(); ++k) {
@@ -61,6 +60,20 @@ class TimelineReader {
   }
   std::unexpected<Error> failAt(std::string_view place, std::string_view what) const {
     return fields(json_, {}).failAt(place, what);
+  }
+
+  using Goals = std::vector<std::pair<std::string, double>>;
+
+  Result<void> readPoses() {
+    const auto poses = json_.find("poses");
+    if (poses == json_.end()) return {};
+    if (!poses->is_object()) return failAt("'poses'", "are not an object");
+    for (const auto& [name, weights] : poses->items()) {
+      const std::string place = fmt::format("pose '{}'", name);
+      if (!weights.is_object()) return failAt(place, "is not an object of weights");
+      if (auto ok = readWeights(weights, place, poses_[name]); !ok) return ok;
+    }
+    return {};
   }
 
   Result<TimelineEvent> readEvent(const Json& json, const std::string& place) {
@@ -105,18 +118,18 @@ class TimelineReader {
   }
 
   /// Reads weights by name, or the name of a pose that has them.
-  Result<void> readGoals(const Json& json, const std::string& place,
-                         std::vector<std::pair<std::string, double>>& goals) const {
-    if (json.is_string()) {
-      const auto poses = json_.find("poses");
-      const std::string pose = json.get<std::string>();
-      if (poses == json_.end() || !poses->contains(pose))
-        return failAt(place, fmt::format("goes to a pose '{}' that 'poses' does not have", pose));
-      if (!(*poses)[pose].is_object())
-        return failAt(fmt::format("pose '{}'", pose), "is not an object of weights");
-      return readGoals((*poses)[pose], fmt::format("pose '{}'", pose), goals);
-    }
-    if (!json.is_object()) return failAt(place, "goes neither to weights nor to a pose");
+  Result<void> readGoals(const Json& json, const std::string& place, Goals& goals) const {
+    if (json.is_object()) return readWeights(json, place, goals);
+    if (!json.is_string()) return failAt(place, "goes neither to weights nor to a pose");
+    const auto pose = poses_.find(json.get<std::string>());
+    if (pose == poses_.end())
+      return failAt(place, fmt::format("goes to a pose '{}' that 'poses' does not have",
+                                       json.get<std::string>()));
+    goals = pose->second;
+    return {};
+  }
+
+  Result<void> readWeights(const Json& json, const std::string& place, Goals& goals) const {
     for (const auto& [name, weight] : json.items()) {
       if (!weight.is_number() || !isPlausibleWeight(weight.get<double>()))
         return failAt(
@@ -130,6 +143,7 @@ class TimelineReader {
 
   std::string_view name_;
   const Json& json_;
+  std::map<std::string, Goals> poses_;
   std::size_t goals_ = 0;
 };
 

@@ -17,7 +17,7 @@ double between(double from, double to, double position) {
 bool isPositive(double value) { return std::isfinite(value) && value > 0; }
 
 // The largest |velocity| and |acceleration| of any law.
-constexpr Progress kPeak{.position = 1, .velocity = 2, .acceleration = 4};
+constexpr Progress kPeak{.position = 1, .velocity = 2, .acceleration = 6};
 
 }  // namespace
 
@@ -31,6 +31,8 @@ std::string_view nameOf(TimeLaw law) noexcept {
       return "brake";
     case TimeLaw::accelerateBrake:
       return "accelerate-brake";
+    case TimeLaw::linearForce:
+      return "linear-force";
   }
   return "";
 }
@@ -59,6 +61,11 @@ Progress progress(TimeLaw law, double s) noexcept {
     case TimeLaw::accelerateBrake:
       if (s < 0.5) return {2 * s * s, 4 * s, 4};
       return {1 - 2 * left * left, 4 * left, -4};
+    case TimeLaw::linearForce: {
+      const double velocity = 6 * s * left, acceleration = 6 * (left - s);
+      if (s < 0.5) return {s * s * (1 + 2 * left), velocity, acceleration};
+      return {1 - left * left * (1 + 2 * s), velocity, acceleration};
+    }
   }
   return {s, 1, 0};
 }

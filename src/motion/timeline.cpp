@@ -33,10 +33,13 @@ Result<void> play(const TimelineEvent& event, const Places& places, const Matter
 Result<void> checkRegions(const Timeline& timeline, std::span<const std::string> regions) {
   for (const TimelineEvent& event : timeline.events) {
     if (event.region.empty() || std::ranges::find(regions, event.region) != regions.end()) continue;
+    if (regions.empty() || (regions.size() == 1 && regions.front() == "rest"))
+      return fail("an event is for a region '", event.region,
+                  "', but the face is not divided into regions.");
     std::string known;
     for (const std::string& region : regions) known += (known.empty() ? "" : ", ") + region;
-    return fail("an event is for a region '", event.region, "' that there is not; there ",
-                known.empty() ? "are none" : "is " + known, ".");
+    return fail("an event is for a region '", event.region, "' that there is not; there is ", known,
+                ".");
   }
   return {};
 }

@@ -156,6 +156,8 @@ Result<Trajectory> Trajectory::byLaw(TimeLaw law, double from, double to, double
       return constantForce({from, 2 * speed}, to, seconds);
     case TimeLaw::accelerateBrake:
       return twoForces({from, 0}, to, seconds);
+    case TimeLaw::linearForce:
+      return linearForce({from, 0}, to, seconds);
     case TimeLaw::linear:
       break;
   }

@@ -284,10 +284,11 @@ Result<std::vector<Vec3>> originalPositions(const Rig& rig, const MeshRig& sourc
         "which; make the file again without --strip order.");
   const std::size_t vertices = rig.source.gridVertex.size();
   if (source.neutral.positions.size() != vertices)
-    return fail(
-        fmt::format("The neutral has {} vertices, but the face was made from {}; give the mesh it "
-                    "was converted from.",
-                    source.neutral.positions.size(), vertices));
+    return fail(fmt::format(
+        "The neutral has {} vertices, but the face was made from {}; give the mesh it "
+        "was converted from{}.",
+        source.neutral.positions.size(), vertices,
+        source.neutral.positions.size() < vertices ? ", subdivided as it was then" : ""));
   std::vector<Vec3> positions = source.neutral.positions;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     if (weights[k] == 0) continue;

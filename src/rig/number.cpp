@@ -8,8 +8,7 @@
 namespace sweepface {
 
 std::optional<double> numberOf(std::string_view text) {
-  const bool plain =
-      !text.empty() && text[0] != '+' && text.find_first_not_of("0123456789+-.eE") == text.npos;
+  const bool plain = !text.empty() && text.find_first_not_of("0123456789+-.eE") == text.npos;
   if (!plain) return std::nullopt;
   // Not from_chars, which libc++ 19 lacks for floating point. strtod expects the locale's point.
   std::string digits(text);

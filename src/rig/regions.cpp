@@ -58,6 +58,18 @@ Result<void> check(const Matter& matter) {
   return {};
 }
 
+std::vector<std::string> namesOf(std::span<const Region> regions) {
+  std::vector<std::string> names;
+  for (const Region& region : regions) names.push_back(region.name);
+  return names;
+}
+
+std::vector<Matter> mattersOf(std::span<const Region> regions) {
+  std::vector<Matter> matters;
+  for (const Region& region : regions) matters.push_back(region.matter);
+  return matters;
+}
+
 Result<std::vector<Region>> dividedFace(const Rig& rig, std::vector<Region> painted) {
   const std::size_t nodes = rig.surface.wireframe().nodes.size();
   if (auto ok = check(painted, nodes); !ok) return std::unexpected(ok.error());

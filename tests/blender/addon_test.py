@@ -422,6 +422,12 @@ class AddOn(InBlender):
         bpy.ops.object.sweepface_move(law="spring", seconds=1, frequency=2, damping=0.2)
         bpy.context.scene.frame_set(6)  # half a swing
         self.assertGreater(key.value, 1.4)
+        for frequency, damping in ((2, 0.2), (0.5, 0.5), (2, 5)):
+            bpy.context.scene.frame_set(60)
+            key.value = 0.8
+            bpy.ops.object.sweepface_move(law="spring", seconds=0.5, frequency=frequency, damping=damping)
+            for frame in (60, 90):
+                self.assertAlmostEqual(addon.curve_of(key).evaluate(frame), 0.8, places=5)
 
     def test_plays_a_clip_instead_of_what_was_there(self):
         shown = self.face()

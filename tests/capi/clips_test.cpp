@@ -200,8 +200,12 @@ TEST_F(Clips, OfAGlbAreChosenByTheirNames) {
 }
 
 TEST_F(Clips, OfTimelinesGoByTheirRegions) {
-  EXPECT_TRUE(
-      refuses(kTimeline, "an event is for a region 'part' that there is not; there is rest"));
+  EXPECT_TRUE(refuses(kTimeline, "for a region 'part', but the face is not divided into regions."));
+  std::string everywhere(kTimeline);
+  everywhere.erase(everywhere.find(R"(, "region": "part")"), 18);
+  ASSERT_EQ(read(everywhere), SWEEPFACE_OK) << sweepface_message();
+  EXPECT_STREQ(sweepface_clip_warning(clip, 0),
+               "take: its regions count only if the face is divided by them before it is read.");
   ASSERT_EQ(sweepface_rig_divide_by(handle, kTimeline.data(), kTimeline.size(), "scene"),
             SWEEPFACE_OK)
       << sweepface_message();

@@ -45,7 +45,7 @@ TEST_F(Animate, ObeysNewton) {
 
 TEST_F(Animate, BeginsAndEndsWhereItIsTold) {
   convertRig();
-  for (const std::string law : {"linear", "newton", "brake", "accelerate-brake"}) {
+  for (const std::string law : {"linear", "newton", "brake", "accelerate-brake", "linear-force"}) {
     ASSERT_EQ(run("animate face.sweep --from smile=0.3 --to jawOpen=0.7 --seconds 0.3 --frames 4 "
                   "-o frames --law " +
                   law)
@@ -60,11 +60,11 @@ TEST_F(Animate, HasLawsThatDiffer) {
   convertRig();
   std::vector<double> ways;
   const auto first = exported(""), last = exported("jawOpen=1");
-  for (const std::string law : {"linear", "newton", "brake", "accelerate-brake"}) {
+  for (const std::string law : {"linear", "newton", "brake", "accelerate-brake", "linear-force"}) {
     ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --frames 5 -o frames --law " + law).code, 0);
     ways.push_back(norm(frame(1).back() - first.back()) / norm(last.back() - first.back()));
   }
-  const std::vector<double> expected{0.25, 0.0625, 0.4375, 0.125};
+  const std::vector<double> expected{0.25, 0.0625, 0.4375, 0.125, 0.15625};
   for (std::size_t k = 0; k < ways.size(); ++k) EXPECT_NEAR(ways[k], expected[k], 1e-12);
 }
 

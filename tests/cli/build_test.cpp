@@ -29,6 +29,16 @@ TEST_F(Build, MakesTheVaseOfTheDocumentation) {
   EXPECT_EQ(face("vase.sweep").targets[0].name, "taller");
 }
 
+TEST_F(Build, IsNotMistakenForOtherCommands) {
+  folder.file("vase.wire.json", vaseText());
+  ASSERT_EQ(run("build vase.wire.json -o vase.sweep").code, 0);
+  EXPECT_TRUE(fails("info vase.wire.json",
+                    "make a face of it first: `sweepface build vase.wire.json -o face.sweep`."));
+  EXPECT_TRUE(fails("build vase.sweep -o other.sweep",
+                    "`sweepface wireframe vase.sweep -o face.wire.json`."));
+  EXPECT_TRUE(fails("convert vase.sweep -o other.sweep", "vase.sweep is a face already"));
+}
+
 TEST_F(Build, WarnsOfPointsThatAreFarFromTheirCurve) {
   Json drawing = vase();
   std::ranges::reverse(drawing["controls"][2]["second"]);

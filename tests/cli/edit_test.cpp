@@ -111,6 +111,9 @@ TEST_F(Edit, RefusesWhatItCannotDo) {
             "cannot have these parameters"));
   EXPECT_TRUE(
       fails("edit sheet.sweep --move z9 0,0,1" + out, "There is no curve and no node named 'z9'"));
+  EXPECT_TRUE(fails("edit sheet.sweep --move nose 0,0,1" + out,
+                    "There is no curve and no node named 'nose'"));
+  EXPECT_TRUE(fails("edit sheet.sweep --move n99 0,0,1" + out, "There is no node named 'n99'"));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0" + out, "three numbers"));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,nan" + out, "three numbers"));
   EXPECT_TRUE(fails("edit sheet.sweep --control b1-c1 'b1 c2' first 0,0,1" + out, "'first'"));

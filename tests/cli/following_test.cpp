@@ -51,6 +51,29 @@ TEST_F(Following, ArcsTurnWhatTurns) {
   EXPECT_EQ(exported("--weights jawOpen=1 --arcs on"), exported("--weights jawOpen=1"));
 }
 
+TEST_F(Following, TellsWhereArcsChangeNothing) {
+  convertWith({{"jawOpen", [](const Vec3& p) { return turnedAboutX(p, 30); }},
+               {"shift", [](const Vec3& p) { return p + Vec3{0, 1, 0}; }}});
+  const auto warning = [&](const std::string& weights) {
+    return run("export face.sweep -o mesh.obj --arcs on --weights " + weights).err;
+  };
+  EXPECT_EQ(warning("shift=1"),
+            "sweepface: warning: No target of the expression turns about anything, so --arcs "
+            "changes nothing; those that turn are jawOpen.\n");
+  EXPECT_EQ(warning("shift=1,jawOpen=0.5"), "");
+  EXPECT_EQ(run("export face.sweep -o face.glb --arcs on").err, "");
+}
+
+TEST_F(Following, FilesRecordWhatTurns) {
+  convertWith({{"jawOpen", [](const Vec3& p) { return turnedAboutX(p, 30); }},
+               {"shift", [](const Vec3& p) { return p + Vec3{0, 1, 0}; }}});
+  EXPECT_EQ(run("info face.sweep").out.find("turns"), std::string::npos);
+  const std::string convert = "convert neutral.obj turns -o turns.sweep --arcs";
+  ASSERT_EQ(run(convert).code, 0);
+  EXPECT_NE(run("info turns.sweep").out.find("turns      1: jawOpen\n"), std::string::npos);
+  EXPECT_TRUE(fails(convert + " on", "Here --arcs stands alone; leave 'on' out."));
+}
+
 TEST_F(Following, AnimationsTakeArcsAlong) {
   convertWith({{"jawOpen", [](const Vec3& p) { return turnedAboutX(p, 30); }}});
   ASSERT_EQ(
@@ -211,6 +234,8 @@ TEST_F(Following, PicturesGoOnArcsAndShowWhatTheyChange) {
             picture("--weights jawOpen=0.5 --arcs on --style error"));
   EXPECT_TRUE(
       fails("render face.sweep -o out.png --style error --arcs on --limits x", "--limits: "));
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --limits 0:1,jawopen=0:0.5",
+                    "--limits: Did you mean 'jawOpen'? There is no target named 'jawopen'"));
   EXPECT_TRUE(fails("render face.sweep -o out.png --arcs on --weights jawOpen.arc=1",
                     "no target named 'jawOpen.arc'"));
   const Outcome both = run("render face.sweep -o out.png --arcs on --compare neutral.obj");

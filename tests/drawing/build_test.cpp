@@ -193,6 +193,17 @@ TEST(Points, tooManyForACurveAreMissedAndTheMissIsTold) {
   }
 }
 
+TEST(Points, coincideInADrawingWithANodeFarAway) {
+  Json drawing = vase();
+  drawing["curves"][0]["points"] = Json::array({{1, 1, 1}, {1, 1, 1}});
+  EXPECT_NE(refusal(drawing).find("coincides with the one before it."), std::string::npos)
+      << refusal(drawing);
+  drawing = vase();
+  drawing["nodes"][0]["at"] = {0, 0, 1e30};
+  EXPECT_NE(refusal(drawing).find("in a drawing that is 1e+30 wide"), std::string::npos)
+      << refusal(drawing);
+}
+
 TEST(Patches, thatArePointsAreNone) {
   Json drawing = square();
   for (std::size_t k = 1; k < 4; ++k)

@@ -162,6 +162,7 @@ TEST(Strip, TipsOfSpikesGoWithTheOrder) {
 
 TEST(Strip, NamesOnlyPartsThatThereAre) {
   EXPECT_TRUE(parseStrip("order,uv,groups,scene"));
+  EXPECT_TRUE(parseStrip("order, uv")->uv);
   for (const char* text : {"hair", "uv,", "uv order", "UV"}) {
     const auto parts = parseStrip(text);
     ASSERT_FALSE(parts) << text;

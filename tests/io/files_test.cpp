@@ -39,6 +39,7 @@ TEST(Files, HaveExtensionsInSmallLetters) {
 TEST(Files, MayHaveTheLongestOfNames) {
   const TemporaryFolder folder;
   EXPECT_TRUE(writeFile(folder / std::string(255, 'n'), "x").has_value());
+  EXPECT_TRUE(failsWith(writeFile(folder / std::string(256, 'n'), "x"), {"choose a shorter name"}));
 }
 
 TEST(Files, MayBeCalledAnythingInUtf8) {

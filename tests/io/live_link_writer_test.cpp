@@ -90,6 +90,34 @@ TEST(LiveLinkWriter, SidesThatAreAlikeAreOneColumn) {
   EXPECT_EQ(text->find("cheekPuff"), std::string::npos);
 }
 
+TEST(LiveLinkWriter, NamesWithoutASideFillBothColumns) {
+  const Clip clip{{"eyeBlink", "EyeSquint", "eyeSquintLeft"}, {0}, {0.25, 0.5, 0.75}};
+  const auto text = formatLiveLinkCsv(clip);
+  ASSERT_TRUE(text);
+  const Clip again = *parseLiveLinkCsv(*text, "take.csv");
+  for (const std::vector<std::string>& targets :
+       {std::vector<std::string>{"eyeBlink_L", "eyeBlink_R", "eyeSquint_L", "eyeSquint_R"},
+        std::vector<std::string>{"eyeBlink", "eyeSquint"}}) {
+    std::vector<double> before(targets.size()), after(targets.size());
+    matchClip(clip, targets).spread(clip, 0, before);
+    matchClip(again, targets).spread(again, 0, after);
+    EXPECT_EQ(after, before);
+  }
+}
+
+TEST(LiveLinkWriter, TakesMayPassMidnight) {
+  const Clip clip{{"jawOpen"}, {86399.5, 86400, 86400.5}, {0, 0.5, 1}};
+  for (const double rate : {29.97, 60.0}) {
+    const auto text = formatLiveLinkCsv(clip, rate);
+    ASSERT_TRUE(text) << text.error().message;
+    const auto again = parseLiveLinkCsv(*text, "take.csv", rate);
+    ASSERT_TRUE(again) << again.error().message;
+    ASSERT_EQ(again->times.size(), 3U);
+    for (std::size_t f = 0; f < 3; ++f) EXPECT_NEAR(again->times[f], clip.times[f], 0.6e-3 / rate);
+  }
+  EXPECT_FALSE(formatLiveLinkCsv({{"jawOpen"}, {10, 86410}, {0, 1}}));
+}
+
 TEST(LiveLinkWriter, NamesMayHoldCommas) {
   const auto text = formatLiveLinkCsv({{"lips, upper", "beard"}, {0}, {0.25, 0.5}}, 60);
   ASSERT_TRUE(text);

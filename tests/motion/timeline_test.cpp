@@ -260,14 +260,17 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError(R"({"seconds": 1, "loops": 1.5, "events": [1]})", "'loops'");
   expectError(R"({"seconds": 1, "evnts": []})", "unknown key 'evnts'");
   const auto event = [](std::string inside) {
-    return R"({"seconds": 1, "poses": {"p": {"a": 1}, "q": 1}, "events": [)" + inside + "]}";
+    return R"({"seconds": 1, "poses": {"p": {"a": 1}}, "events": [)" + inside + "]}";
   };
   expectError(event("1"), "events[0] is not an object");
   expectError(event(R"({"to": {}})"), "events[0] has no 'at'");
   expectError(event(R"({"at": 0})"), "one of 'to' and 'only'");
   expectError(event(R"({"at": 0, "to": {}, "only": {}})"), "one of 'to' and 'only'");
   expectError(event(R"({"at": 0, "to": "nobody"})"), "a pose 'nobody'");
-  expectError(event(R"({"at": 0, "to": "q"})"), "pose 'q' is not an object");
+  expectError(R"({"seconds": 1, "poses": {"q": 1}, "events": [{"at": 0, "to": {}}]})",
+              "pose 'q' is not an object");
+  expectError(R"({"seconds": 1, "poses": {"q": {"a": 1e9}}, "events": [{"at": 0, "to": {}}]})",
+              "pose 'q' has a weight 'a' that is not a number within ±1,000,000");
   expectError(event(R"({"at": 0, "to": {"a": "b"}})"), "a weight 'a' that is not a number");
   expectError(event(R"({"at": 0, "to": {"a": 1e9}})"), "not a number within ±1,000,000");
   expectError(event(R"({"at": 0, "to": "p", "drive": "jump"})"), "accelerate-brake");

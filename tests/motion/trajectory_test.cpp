@@ -61,7 +61,7 @@ TEST(Trajectory, RestsByDefault) {
   EXPECT_EQ(k.velocity, 0);
 }
 
-TEST(Trajectory, TheFourLawsAreSpecialCases) {
+TEST(Trajectory, TheLawsAreSpecialCases) {
   for (const TimeLaw law : timeLaws)
     for (double s = 0; s <= 1; s += 1.0 / 64) {
       const Progress wanted = progress(law, s);

@@ -35,6 +35,12 @@ class Clips(FaceTest):
         back = sweepface.read_clip(self.path("take.csv"))
         self.assertTrue(np.allclose(back.weights_of(self.rig), self.clip().weights_of(self.rig), atol=1e-6))
         self.assertEqual(repr(back)[:28], "<sweepface.Clip: 61 frames o")
+        both = sweepface.Clip(["eyeBlink"], [0, 1], [[0.2], [0.1]])  # of no side
+        both.save_csv(self.path("both.csv"))
+        back = sweepface.read_clip(self.path("both.csv"))
+        with self.assertWarnsRegex(UserWarning, "drive no target of the rig: eyeBlink"):  # a column for faces without sides
+            weights = back.weights_of(self.rig)
+        self.assertTrue(np.array_equal(weights, both.weights_of(self.rig)))
 
     def test_become_few_keys(self):
         keys = self.clip().keys(1e-3)
@@ -59,6 +65,10 @@ class Clips(FaceTest):
             self.clip().renamed({"tail": {"jawOpen": "half"}}, self.rig)
         with self.refuses("wings"):
             self.clip().renamed({"tail": "wings"}, self.rig)
+        with self.refuses("no number within"):
+            self.clip().renamed({"tail": {"jawOpen": 2000}}, self.rig)
+        several = self.clip().renamed({"JawOpen": ["jawOpen", "eyeBlinkLeft"], "browInnerUp": None}, self.rig)
+        self.assertEqual([np.count_nonzero(row) for row in several.weights_of(self.rig, [0.5])], [2])
 
     def test_are_baked_from_timelines(self):
         events = [{"at": 0, "to": {"jawOpen": 1}, "drive": "accelerate-brake", "seconds": 0.5}]
@@ -66,6 +76,15 @@ class Clips(FaceTest):
             json.dump({"seconds": 1, "events": events}, file)
         weights = sweepface.read_clip(self.path("line.json")).weights_of(self.rig, [0, 0.25, 0.5, 1])
         self.assertTrue(np.allclose(weights[:, self.rig.target_names.index("jawOpen")], [0, 0.5, 1, 1], atol=1e-3))
+        quick = {"at": 0, "to": {"jawOpen": 1}, "frequency": 5000, "damping": 1e-4}
+        region = {"name": "cheeks", "points": [[0, 8, 9]], "fade": 2}
+        for told, sentence in (({"events": [quick]}, "more quickly"), ({"events": events, "regions": [region]}, "its regions are left out")):
+            with open(self.path("line.json"), "w") as file:
+                json.dump({"seconds": 1, **told}, file)
+            with self.assertWarnsRegex(UserWarning, sentence):
+                sweepface.read_clip(self.path("line.json"))
+        with self.refuses("a timeline, which has no frames a second"):
+            sweepface.read_clip(self.path("line.json"), frames_per_second=30)
 
     def test_refuse_what_makes_no_sense(self):
         for arguments, sentence in (
@@ -86,6 +105,9 @@ class Clips(FaceTest):
             sweepface.read_clip(self.path("take.csv"), frames_per_second=-1)
         with self.refuses("between 0 and 1000"):
             self.clip().save_csv(self.path("take.csv"), 2000)
+        self.clip().save_csv(self.path("take.csv"))
+        with self.refuses("no animations to choose from"):
+            sweepface.read_clip(self.path("take.csv"), animation="talk")
 
     def test_have_the_names_of_a_capture_in_another_encoding(self):
         with open(self.path("take.csv"), "wb") as file:

@@ -63,7 +63,7 @@ class Motions(FaceTest):
         self.assertEqual(motion.seconds, 2)
 
     def test_know_every_law(self):
-        self.assertEqual(sweepface.laws, ("linear", "newton", "brake", "accelerate-brake"))
+        self.assertEqual(sweepface.laws, ("linear", "newton", "brake", "accelerate-brake", "linear-force"))
         for law in sweepface.laws:
             self.assertEqual(sweepface.Motion([0], [1], law).positions([1])[0, 0], 1)
 
@@ -107,6 +107,12 @@ class Live(FaceTest):
             motion.move_one(1, 1)
         with self.refuses("."):
             motion.move_to([np.nan])
+        with self.refuses("Goals must be an array .* Rig.weights makes one of a dict"):
+            motion.move_to({"jawOpen": 1})
+        with self.refuses("Rig.target tells that of a name"):
+            motion.move_one("jawOpen", 1)
+        with self.refuses("start must be an array"):
+            sweepface.Motion({"jawOpen": 0}, [1])
 
 
 if __name__ == "__main__":

@@ -62,6 +62,8 @@ class Painting(RegionTest):
     def test_makes_bands_that_cover_the_face(self):
         bands = self.rig.paint(points=[[0, 8, 9]], fade=6, bands=4)
         self.assertEqual(bands.shape, (4, self.rig.node_count))
+        one = self.rig.paint(points=[[0, 8, 9]], fade=6, bands=1)
+        self.assertTrue(np.array_equal(one, [self.rig.paint(points=[[0, 8, 9]], fade=6)]))
         self.assertTrue(np.allclose(bands.sum(axis=0), 1))
 
     def test_leaves_the_rest(self):
@@ -97,7 +99,7 @@ class Painting(RegionTest):
             ({"curves": ["c99999"]}, "c99999"),
             ({"nodes": {"n5": 2}}, "not from 0 to 1"),
             ({"nodes": ["n5"]}, "Nodes must be a dict"),
-            ({"points": [[0, 8, 9]], "fade": 1, "bands": 1}, "2 to 32 bands"),
+            ({"points": [[0, 8, 9]], "fade": 1, "bands": 0}, "2 to 32 bands"),
             ({"points": [[0, 8, 9]], "fade": 1, "bands": 2.5}, "bands must be a whole number"),
         ):
             with self.refuses(sentence):
@@ -274,7 +276,9 @@ class Clips(RegionTest):
 
     def test_have_their_own_frames_if_no_times_are_given(self):
         clips = self.clip().in_regions(self.regions)
-        self.assertTrue(np.array_equal(clips.weights_of(self.rig), clips.weights_of(self.rig, self.clip().times)))
+        weights, last = clips.weights_of(self.rig), clips.of_regions[1]
+        self.assertTrue(np.array_equal(weights, clips.weights_of(self.rig, last.times)))
+        self.assertAlmostEqual(weights[-1, 1, self.jaw], 1, places=3)
 
     def test_take_regions_as_the_face_has_them(self):
         cheeks = [sweepface.Region("cheeks", self.shares, mass=4)]  # without the rest

@@ -11,8 +11,9 @@ TEST(Number, isAllOfATextOrNothing) {
   EXPECT_EQ(numberOf("0.5"), 0.5);
   EXPECT_EQ(numberOf("-1e-3"), -0.001);
   EXPECT_EQ(numberOf("7."), 7);
+  EXPECT_EQ(numberOf("+1"), 1);
   for (const char* text :
-       {"", "+1", "1 ", " 1", "1,5", "0x10", "1e", "-", "inf", "nan", "1e999", "1.2.3"})
+       {"", "+-1", "1 ", " 1", "1,5", "0x10", "1e", "-", "inf", "nan", "1e999", "1.2.3"})
     EXPECT_FALSE(numberOf(text)) << text;
 }
 

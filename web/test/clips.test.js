@@ -577,6 +577,8 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "poses": {}, "events": [{"at": 0, "to": "__proto__"}]}', 'goes to a pose \'__proto__\''],
        ['t.json', '{"seconds": 1, "poses": {"p": 5}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' is not an object of weights'],
        ['t.json', '{"seconds": 1, "poses": {"p": {"a": "x"}}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' has a weight \'a\' that is not a number'],
+       ['t.json', '{"seconds": 1, "poses": {"unused": {"a": "x"}}, "events": [{"at": 0, "to": {}}]}',
+        'pose \'unused\' has a weight \'a\' that is not a number'],
        ...['null', '{}', '"x"'].map((regions) => {
          return ['t.json', `{"seconds": 1, "events": [{"at": 0, "to": {}}], "regions": ${regions}}`, '\'regions\' are not a list'];
        }),

@@ -134,6 +134,9 @@ test('bytes that are no face are refused with the library\'s sentence', async ()
   const bytes = readFileSync(sample);
   await assert.rejects(Sweepface.load(new TextEncoder().encode('GIF89a'), {name: 'face.sweep'}),
                        {message: 'face.sweep does not begin with SWEEPFC; check that it is a .sweep file.'});
+  for (const [start, name] of [['glTF\x02', 'x.bin'], ['v 0 0 0', 'x.OBJ'], ['ply', 'x.ply']])
+    await assert.rejects(Sweepface.load(new TextEncoder().encode(start), {name}),
+                         {message: `${name} is a file of meshes, not a face; make one of it first: sweepface convert.`});
   for (const options of [undefined, {name: undefined}, {name: ''}])
     await assert.rejects(Sweepface.load(bytes.subarray(0, bytes.length / 2), options),
                          {message: /^The face, byte \d+: the file ends/});

@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import {createHash} from 'node:crypto';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';
 import {Sweepface} from '../sweepface.js';
@@ -621,7 +622,13 @@ test('the page says when a download breaks off', options, async () => {
 
 test('the page says when three.js is missing', options, async () => {
   const html = readFileSync(new URL('../index.html', import.meta.url), 'utf8').replace('three.module.js', 'nothing.js');
-  assert.match(await told('other.html', {files: {'other.html': html}}), /npm ci/);
+  const hashes = [...html.matchAll(/<script(?: type="importmap")?>(.+?)<\/script>/gs)]
+    .map(([, text]) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`);
+  assert.equal(hashes.length, 2);
+  const guarded = html.replace('<meta', `<meta http-equiv="Content-Security-Policy" content="default-src 'self'; ` +
+    `img-src data:; script-src 'self' 'wasm-unsafe-eval' ${hashes.join(' ')}"><meta`);
+  for (const page of [html, guarded])
+    assert.match(await told('other.html', {files: {'other.html': page}}), /npm ci/);
 });
 
 test('the page says when there is no WebGL', options, async () => {
