@@ -674,7 +674,7 @@ class MotionOperator(ToolOperator):
     def play(self, context, folder, first, *options, end=None):
         """Has the tool animate the face, and keys the result from a frame on; returns its last frame.
 
-        `end` has the weights of the last frame, also for springs, which never rest.
+        `end` has the weights at which a spring is stopped.
         """
         shown, rate = context.active_object, rate_of(context.scene)
         name, path = shown.name, os.path.join(folder, "take.glb")
@@ -694,15 +694,16 @@ class MotionOperator(ToolOperator):
         driven = [name for name in moving if name in keys and driver_of(keys[name])]
         if driven:
             self.report({"WARNING"}, f"Drivers move the shape keys {', '.join(driven)}, whatever their keys say.")
-        for name, weight in (end or {}).items():
-            if name not in animation.tracks:
-                continue
+        missed = {}
+        for name in animation.tracks.keys() & (end or {}).keys():
             values = animation.tracks[name][1]
             last = values[-1:, values.shape[1] // 2]
-            if abs(last - weight) > STILL:
-                self.report({"WARNING"}, f"The spring is {abs(last[0] - weight):.2g} away from {name} when the time is over; give it "
-                                         "more seconds or another damping.")
-            last[:] = weight
+            missed[name] = abs(last[0] - end[name])
+            last[:] = end[name]
+        worst = max(missed, key=missed.get, default=None)
+        if worst and missed[worst] > STILL:
+            self.report({"WARNING"}, f"The spring is {missed[worst]:.2g} away from {worst} when the time is over; give it more seconds or "
+                                     "another damping.")
         for name, (times, values) in animation.tracks.items():
             key = keys.get(name)
             if key and (name in moving or curve_of(key) or key.value):  # others stay at rest as they are
@@ -763,7 +764,8 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
         if self.law == "bounce":
             options += ["--restitution", self.restitution]
         told = lambda weights: ",".join(f"{name}={weight:.9g}" for name, weight in weights.items() if start[name] or end[name])
-        yield from self.play(context, folder, first, "--from", told(start), "--to", told(end), *options, end=end)
+        yield from self.play(context, folder, first, "--from", told(start), "--to", told(end), *options,
+                             end=end if self.law == "spring" else None)
 
 
 class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):

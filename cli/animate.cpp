@@ -30,6 +30,8 @@ struct AnimateArguments {
   RigFileArguments rigFile;
 
   bool namesFrames() const { return frames > 0 || framesPerSecond > 0; }
+  /// Of meshes and of sampled keys in a .glb.
+  double usualRate() const { return what.clip.empty() ? 0 : 30; }
 };
 
 void addOptions(CLI::App& app, AnimateArguments& a) {
@@ -107,9 +109,6 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   return times;
 }
 
-/// Of meshes and of sampled keys in a .glb.
-double usualRateOf(const AnimateArguments& a) { return a.what.clip.empty() ? 0 : 30; }
-
 // ---- Meshes ----
 
 Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Performance& performance,
@@ -134,7 +133,7 @@ void printFrames(const AnimateArguments& a, std::size_t count, const Performance
 Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
-  const Result<std::vector<double>> times = sampleTimes(a, performance, usualRateOf(a));
+  const Result<std::vector<double>> times = sampleTimes(a, performance, a.usualRate());
   if (!times) return std::unexpected(times.error());
   const auto head = headTrack(a.head, rig, performance, *times);
   if (!head) return std::unexpected(head.error());
@@ -179,7 +178,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   } else {
     const bool own = !performance.frameTimes.empty() && !a.namesFrames();
     const Result<std::vector<double>> times =
-        own ? ownKeyTimes(performance) : sampleTimes(a, performance, usualRateOf(a));
+        own ? ownKeyTimes(performance) : sampleTimes(a, performance, a.usualRate());
     if (!times) return std::unexpected(times.error());
     clip = sample(performance, rig, *times);
   }

@@ -143,8 +143,9 @@ class Editor {
     const bool isNode =
         !isNamed(Thing::curve, name) && (isNamed(Thing::node, name) || name.starts_with('n'));
     const Result<Index> thing = rig_.find(isNode ? Thing::node : Thing::curve, name);
-    const bool isNumber = name.find_first_not_of("0123456789", 1) == name.npos;
-    if (!thing && !(isNumber && (isNode || name.starts_with('c'))))
+    const bool isNumbered = name.size() > 1 && (isNode || name.starts_with('c')) &&
+                            name.find_first_not_of("0123456789", 1) == name.npos;
+    if (!thing && !isNumbered)
       return fail(
           fmt::format("There is no curve and no node named '{}'; `sweepface info --list` "
                       "shows those there are.",

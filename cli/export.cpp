@@ -131,7 +131,7 @@ std::string fileNameOf(const std::string& target) {
   return name.append(ending);
 }
 
-/// Those of the first targets.
+/// The file names of the first targets.
 Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < count; ++k) {

@@ -76,24 +76,22 @@ std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told)
   return followers;
 }
 
-/// Warns if no target turns, or none of those that the expressions use.
+/// Warns if no target turns, or none of those that expressions use.
 void warnOfIdleArcs(const Rig& rig, const std::vector<Turn>& turns,
-                    const std::vector<Weights>& told) {
+                    const std::vector<Weights>& expressions) {
   if (turns.empty()) return printWarning(kNoTurns);
-  const auto isUsed = [&](std::size_t target) {
-    return std::ranges::any_of(
-        told, [&](const Weights& w) { return target < w.size() && w[target] != 0; });
-  };
-  if (std::ranges::any_of(turns, [&](const Turn& turn) { return isUsed(turn.target); })) return;
   bool isAnyUsed = false;
-  for (std::size_t k = 0; k < rig.targets.size(); ++k) isAnyUsed |= isUsed(k);
+  for (const Weights& weights : expressions) {
+    if (std::ranges::any_of(turns, [&](const Turn& t) { return weights[t.target] != 0; })) return;
+    isAnyUsed |= std::ranges::any_of(weights, [](double weight) { return weight != 0; });
+  }
+  if (!isAnyUsed) return;
   std::vector<std::string> names;
   for (const Turn& turn : turns) names.push_back(rig.targets[turn.target].name);
-  if (isAnyUsed)
-    printWarning(
-        fmt::format("No target of the expression turns about anything, so --arcs changes nothing; "
-                    "those that turn are {}.",
-                    firstOf(names)));
+  printWarning(
+      fmt::format("No target of the expression turns about anything, so --arcs changes nothing; "
+                  "those that turn are {}.",
+                  firstOf(names)));
 }
 
 /// Whether the turning eyes have taken over all that this target moved.
@@ -109,14 +107,16 @@ Result<Limits> limitsGiven(const FollowingArguments& a, const Rig& rig) {
   if (a.limits.empty()) return Limits();
   auto limits = Limits::parse(rig, a.limits);
   if (limits) return limits;
+  const std::string& why = limits.error().message;
+  if (!why.starts_with("There is no target")) return fail("--limits: " + why);
   std::string named;  // without limits for all
   for (const auto item : a.limits | std::views::split(','))
     if (const std::string_view text(item.begin(), item.end()); text.contains('='))
       named.append(text).append(",");
-  return fail("--limits: " + hintAtName(named, rig) + limits.error().message);
+  return fail("--limits: " + hintAtName(named, rig) + why);
 }
 
-Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vector<Weights>& told) {
+Result<Following> follow(const FollowingArguments& a, Rig& rig, std::vector<Weights> told) {
   Following following;
   following.count = rig.targets.size();
   auto limits = limitsGiven(a, rig);
@@ -126,7 +126,14 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vecto
   if (a.combine) followers = combined(rig, told);
   // Lids turn about the eyeballs, so turns are found while the targets still move the eyeballs.
   auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
-  if (a.arcs == "on") warnOfIdleArcs(rig, turns, told);
+  if (a.arcs == "on") {
+    for (Weights& weights : told) {
+      weights.resize(rig.targets.size());
+      following.limits.apply(weights);
+      Followers(followers).apply(weights);
+    }
+    warnOfIdleArcs(rig, turns, told);
+  }
   if (a.eyes == "on") {
     const std::vector<Eye> eyes = findEyes(rig);
     if (eyes.empty()) return fail("The face has no eyeballs that could turn; leave --eyes out.");

@@ -37,9 +37,9 @@ inline constexpr const char* kNoTurns =
 Result<Limits> limitsGiven(const FollowingArguments& a, const Rig& rig);
 
 /// Sets up what was asked for and adds arcs and turning eyes to the targets of the rig. Warns of
-/// weights in `told`, each [targets], that were set for targets that follow others.
-Result<Following> follow(const FollowingArguments& a, Rig& rig,
-                         const std::vector<Weights>& told = {});
+/// weights in `told`, each [targets], that were set for targets that follow others, and of arcs
+/// that change none of these expressions.
+Result<Following> follow(const FollowingArguments& a, Rig& rig, std::vector<Weights> told = {});
 
 /// A performance with limits, eyes and followers applied to its weights.
 Performance withFollowing(Performance performance, const Following& following);

@@ -57,7 +57,7 @@ std::string objLines(const CurveNetwork& net) {
 bool isOfMesh(const Rig& rig) {
   const SourceMesh& source = rig.source;
   return !std::ranges::is_sorted(source.gridVertex) || !source.polygons.texcoords.empty() ||
-         !rig.scene.empty();
+         !source.polygons.groups.empty() || !rig.scene.empty();
 }
 
 /// Writes all of a face as text: the neutral, its expressions, names and shape parameters.

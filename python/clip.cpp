@@ -25,7 +25,9 @@ Result<Clip> played(const Timeline& timeline, const std::string& text, const std
   if (!clips) return fail(fmt::format("{}: {}", name, clips.error().message));
   Clip& whole = clips->whole;
   whole.warnings = notesOnClip(whole, matchClip(whole, {}), clips->missed, {}, name);
-  if (const auto regions = parseRegions(text, name); regions && !regions->empty())
+  const auto regions = parseRegions(text, name);
+  if (!regions) return std::unexpected(regions.error());
+  if (!regions->empty())
     whole.warnings.push_back(fmt::format(
         "{}: its regions are left out; read_timeline and Timeline.in_regions play them.", name));
   return std::move(whole);
@@ -34,16 +36,17 @@ Result<Clip> played(const Timeline& timeline, const std::string& text, const std
 Result<Clip> parsedClip(const std::filesystem::path& path, const std::string& text,
                         double framesPerSecond, const std::string& animation) {
   const std::string kind = extensionOf(path), name = path.string();
-  if (kind == ".glb" || kind == ".gltf")
-    return parseGltfClip(text, name, folderOf(path), animation);
-  if (!animation.empty())
-    return fail(fmt::format("{} has no animations to choose from, as a .glb has.", name));
-  if (kind == ".csv") return parseLiveLinkCsv(text, name, framesPerSecond);
-  if (kind != ".json")
+  const bool isGltf = kind == ".glb" || kind == ".gltf", isJson = kind == ".json";
+  if (!isGltf && !isJson && kind != ".csv")
     return fail(fmt::format("{} is neither a .csv, a .json, a .glb nor a .gltf.", name));
-  if (!isTimeline(text)) return parseClipJson(text, name, framesPerSecond);
-  if (framesPerSecond > 0)
-    return fail(fmt::format("{} is a timeline, which has no frames a second.", name));
+  if (!isGltf && !animation.empty())
+    return fail(fmt::format("{} has no animations to choose from, as a .glb has.", name));
+  const bool hasTimes = isGltf || (isJson && isTimeline(text));
+  if (hasTimes && framesPerSecond > 0)
+    return fail(fmt::format("{} tells its own times; leave frames_per_second out.", name));
+  if (isGltf) return parseGltfClip(text, name, folderOf(path), animation);
+  if (!isJson) return parseLiveLinkCsv(text, name, framesPerSecond);
+  if (!hasTimes) return parseClipJson(text, name, framesPerSecond);
   const auto timeline = parseTimeline(text, name);
   if (!timeline) return std::unexpected(timeline.error());
   return played(*timeline, text, name);
@@ -93,10 +96,12 @@ std::vector<NameMap::Drive> drivesFrom(const py::object& driven) {
   if (driven.is_none()) return {};
   if (py::isinstance<py::str>(driven)) return {{py::cast<std::string>(driven)}};
   std::vector<NameMap::Drive> drives;
-  if (py::isinstance<py::list>(driven)) {
+  if (py::isinstance<py::list>(driven) || py::isinstance<py::tuple>(driven)) {
     for (const auto& target : driven) drives.push_back({textFrom(target, "A target's name")});
     return drives;
   }
+  if (!isMapping(driven))
+    throw Failure("What a name drives is a name, a list of names, a dict of numbers, or None.");
   for (const auto& [target, factor] : mappingFrom(driven, "What a name drives"))
     drives.push_back({textFrom(target, "A target's name"), numberFrom(factor, "A factor")});
   return drives;

@@ -151,6 +151,8 @@ py::array_t<double> painted(const Rig& rig, const py::object& parts, const py::o
   const Brush brush = brushFrom(parts, points, line, curves, nodes, whole, fade, over);
   if (bands.is_none()) return arrayOf(released([&] { return valueOf(paint(rig, brush)); }));
   const int count = as<int>(bands, "bands", "a whole number");
+  if (count < 1 || count > static_cast<int>(kMostRegions))
+    throw Failure(fmt::format("bands must be from 1 to {}.", kMostRegions));
   const auto all = released([&] {
     if (count == 1) return std::vector<std::vector<double>>{valueOf(paint(rig, brush))};
     return valueOf(paintBands(rig, brush, count));

@@ -34,17 +34,28 @@ Timeline parsedTimeline(const std::string& text, const std::string& name) {
   return released([&] { return valueOf(parseTimeline(text, name)); });
 }
 
+/// The frames of all regions: delayed ones have others, or the same but for rounding.
+std::vector<double> framesOf(const RegionalClips& clips) {
+  std::vector<double> times;
+  for (const Clip& clip : clips.ofRegions)
+    times.insert(times.end(), clip.times.begin(), clip.times.end());
+  std::ranges::sort(times);
+  const auto same =
+      std::ranges::unique(times, [](double a, double b) { return b - a <= 1e-12 * b; });
+  times.erase(same.begin(), same.end());
+  return times;
+}
+
 py::array_t<double> regionalWeightsOver(const RegionalClips& clips, const Rig& rig,
                                         const py::object& times) {
   const ClipMatch match = matchWith(clips.whole, rig, clips.missed);
-  const Clip& longest = *std::ranges::max_element(clips.ofRegions, {}, &Clip::seconds);
+  const py::object at = times.is_none() ? py::object(arrayOf(framesOf(clips))) : times;
   const std::size_t regions = clips.ofRegions.size(), targets = rig.targets.size();
   auto rows =
-      rowsOver(times.is_none() ? longest : clips.whole, times, regions * targets,
-               [&](double seconds, std::span<double> row) {
-                 for (std::size_t r = 0; r < regions; ++r)
-                   match.spread(clips.ofRegions[r], seconds, row.subspan(r * targets, targets));
-               });
+      rowsOver(clips.whole, at, regions * targets, [&](double seconds, std::span<double> row) {
+        for (std::size_t r = 0; r < regions; ++r)
+          match.spread(clips.ofRegions[r], seconds, row.subspan(r * targets, targets));
+      });
   return rows.reshape(
       {rows.shape(0), static_cast<py::ssize_t>(regions), static_cast<py::ssize_t>(targets)});
 }
@@ -60,10 +71,9 @@ void addTimeline(py::module_& m) {
       .def_readonly("of_regions", &RegionalClips::ofRegions, "A clip for each region.")
       .def_property_readonly("seconds", &RegionalClips::seconds,
                              "Until the last region has arrived.")
-      .def(
-          "weights_of", &regionalWeightsOver, "rig"_a, "times"_a = py::none(),
-          "Weights of the rig's targets at times (those of the frames of the region that ends last "
-          "if not given) in every region, as Clip.weights_of has them: [T, R, K].")
+      .def("weights_of", &regionalWeightsOver, "rig"_a, "times"_a = py::none(),
+           "Weights of the rig's targets at times (those of the frames of all regions "
+           "if not given) in every region, as Clip.weights_of has them: [T, R, K].")
       .def("__repr__", [](const RegionalClips& clips) {
         return fmt::format("<sweepface.RegionalClips: {} regions, {:.2f} s>",
                            clips.ofRegions.size(), clips.seconds());

@@ -94,7 +94,8 @@ Doubles weightsOfMotion(const py::object& given, const char* what) {
 }
 
 std::size_t weightOfMotion(const py::object& given) {
-  return as<std::size_t>(given, "A weight", "a number; Rig.target tells that of a name");
+  return as<std::size_t>(given, "A weight",
+                         "a whole number from 0; Rig.target tells that of a name");
 }
 
 py::array_t<double> arrayOfPoints(std::span<const Vec3> points) {

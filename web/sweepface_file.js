@@ -141,7 +141,7 @@ function refuseOthers(bytes, name) {
   const start = String.fromCharCode(...bytes.subarray(0, 64));
   if (/^\s*<(!doctype|html)/i.test(start))
     throw new Error(`${name} is a page of HTML, as servers send for what they do not have; check the address.`);
-  if (start.startsWith('glTF') || (!start.startsWith('SWEEPFC') && /\.(gltf|obj|ply|fbx|usd[acz]?)$/i.test(name)))
+  if (start.startsWith('glTF') || (!start.startsWith('SWEEPFC') && /\.(gltf|obj|ply)$/i.test(name)))
     throw new Error(`${name} is a file of meshes, not a face; make one of it first: sweepface convert.`);
 }
 

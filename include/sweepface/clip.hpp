@@ -77,7 +77,8 @@ struct NameMap {
 Result<NameMap> parseNameMap(std::string_view text, std::string_view name);
 
 /// The clip with the names of the targets in a map, each with the sum of what drives it; names that
-/// are not in the map stay. Refuses targets that do not exist, and weights beyond ±1,000,000.
+/// are not in the map stay. Refuses targets that do not exist, factors beyond ±1000 and weights
+/// beyond ±1,000,000.
 Result<Clip> renamed(Clip clip, const NameMap& map, std::span<const std::string> targets);
 
 /// Names of a clip that are ever other than 0 and drive nothing, without the angles of Live Link

@@ -22,8 +22,8 @@ struct Budget {
     edgeLength,  ///< no arc has a segment longer than this, in model units
     error,       ///< no edge of a triangle is further than this from the surface at its middle, in
                  ///< model units, nor an arc from its segments, measured at seven points of each
-                 ///< (one, where an edge is cut into more than four). Triangles are hardly further
-                 ///< (on the ICT head by an eighth, with eyes and teeth by half)
+                 ///< (one, where an edge is cut into more than four). Triangles are at most
+                 ///< a little further (on the ICT head an eighth, with eyes and teeth half)
     vertices     ///< as close to the surface as this many vertices allow
   };
   Kind kind = Kind::vertices;

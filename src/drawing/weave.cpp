@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 #include "surface/union_find.hpp"
@@ -224,28 +225,28 @@ class Weaver {
       const auto first = woven_.placeOf(d_, start), second = woven_.placeOf(d_, end);
       const bool drawn = !curve.points.empty() || !hasJets(start) || !hasJets(end);
       if (curve.collapsed || !drawn || !first || !second) continue;
-      const auto coincides = [&](const Vec3& point, const Vec3& before) {
-        return norm(point - before) <= 1e-9 * size;
-      };
-      // In a drawing with a node that is far too far away, all others coincide.
-      const auto measure = [&](const Vec3& point, const Vec3& before) {
-        if (point == before) return std::string();
+      // How a point coincides with the one before it, if it does: with a node that is far too far
+      // away, all others do.
+      const auto coinciding = [&](const Vec3& point,
+                                  const Vec3& before) -> std::optional<std::string> {
+        if (norm(point - before) > 1e-9 * size) return std::nullopt;
+        if (point == before) return "";
         return fmt::format(", in a drawing that is {:.3g} wide", size);
       };
       Vec3 last = *first;
       std::size_t number = 0;
       for (const Vec3& point : curve.points) {
         ++number;
-        if (coincides(point, last))
+        if (const auto how = coinciding(point, last))
           return refuse(curve.place,
                         fmt::format("point {} of curve '{}' coincides with the one before it{}",
-                                    number, curve.name, measure(point, last)));
+                                    number, curve.name, *how));
         last = point;
       }
-      if (coincides(*second, last))
+      if (const auto how = coinciding(*second, last))
         return refuse(curve.place, fmt::format("the last point of curve '{}' coincides with the "
                                                "one before it{}; a curve needs a length",
-                                               curve.name, measure(*second, last)));
+                                               curve.name, *how));
     }
     return {};
   }

@@ -141,7 +141,7 @@ Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
   if (given != vertices)
     return fail("the neutral has ", given, " vertices, the model was made from ", vertices,
                 "; give the mesh it was converted from",
-                given < vertices ? ", subdivided as it was then" : "");
+                given < vertices ? ", subdivided if it was" : "");
   std::vector<std::pair<Weights, const std::vector<Vec3>*>> shapes;
   shapes.emplace_back(Weights(rig.targets.size(), 0.0), &source.neutral.positions);
   for (const MeshTarget& t : source.targets) {

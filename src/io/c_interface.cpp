@@ -87,13 +87,13 @@ Result<RegionalClips> readForRegions(const Division& division,
   }
   const auto timeline = parseTimeline(bytes, name);
   if (!timeline) return std::unexpected(timeline.error());
-  const bool isDivided = !division.names.empty();
-  const std::vector<std::string> undivided{"rest"};
-  auto clips = named(inRegions(*timeline, isDivided ? division.names : undivided, matters));
-  if (const auto own = parseRegions(bytes, name); clips && !isDivided && own && !own->empty())
+  if (!division.names.empty()) return named(inRegions(*timeline, division.names, matters));
+  const auto own = parseRegions(bytes, name);
+  if (!own) return std::unexpected(own.error());
+  auto clips = named(inRegions(*timeline, std::vector<std::string>{"rest"}, matters));
+  if (clips && !own->empty())
     clips->whole.warnings.push_back(
-        std::string(name) +
-        ": its regions count only if the face is divided by them before it is read.");
+        std::string(name) + ": its regions count only if the face is divided by them first.");
   return clips;
 }
 

@@ -102,13 +102,11 @@ std::vector<Column> columnsOf(const Clip& clip) {
     const bool isAll = std::ranges::all_of(
         column.sources, [&](std::size_t source) { return alike(source, column.sources[0]); });
     for (const std::size_t source : column.sources) shown[source] = isAll;
-  }
-  for (Column& column : columns) {
     if (!column.sources.empty()) continue;
-    const auto place = static_cast<Index>(&column - columns.data());
-    for (std::size_t k = 0; k < n; ++k)
-      if (std::ranges::find(back.targets[k], place) != back.targets[k].end())
-        column.sources.push_back(k);
+    for (std::size_t source = 0; source < n; ++source)
+      if (std::ranges::find(back.targets[source], static_cast<Index>(k)) !=
+          back.targets[source].end())
+        column.sources.push_back(source);
   }
   for (std::size_t k = 0; k < n; ++k)
     if (!shown[k]) columns.push_back({clip.names[k], {k}});
@@ -126,11 +124,12 @@ struct Timecode {
         frames(std::round((clock.secondsAt(time) - seconds) * clock.counted() * 1000) / 1000) {
     if (frames >= clock.counted()) ++seconds, frames = 0;
   }
+  double clock() const { return std::fmod(seconds, kDay); }
   bool isAfter(const Timecode& other) const {
     return seconds != other.seconds ? seconds > other.seconds : frames > other.frames;
   }
   std::string text() const {
-    const auto count = static_cast<int>(std::fmod(seconds, kDay));
+    const auto count = static_cast<int>(clock());
     return fmt::format("{:02}:{:02}:{:02}:{:06.3f}", count / 3600, count / 60 % 60, count % 60,
                        frames);
   }
@@ -185,6 +184,13 @@ Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond) 
           fmt::format("Frames {} and {} of the clip are too near to each other for a "
                       "timecode at {:.6g} frames a second; ask for fewer, or for another rate.",
                       f - 1, f, framesPerSecond));
+    // Readers see midnight where the clock goes back by more than half a day.
+    const double back = f > 0 ? Timecode(clip.times[f - 1], clock).clock() - time.clock() : 0;
+    if (back > 0 && back <= kDay / 2)
+      return fail(
+          fmt::format("Between frames {} and {} the clip passes midnight and lasts half a day or "
+                      "more, which timecodes cannot tell; cut it there.",
+                      f - 1, f));
     text += fmt::format("\n{},{}", time.text(), columns.size());
     for (const Column& column : columns) {
       double value = column.sources.empty() ? 0 : -HUGE_VAL;

@@ -43,13 +43,14 @@ Result<Drives> readDrives(const io::JsonFields& in) {
 
 Result<void> checkTargets(const NameMap& map, std::span<const std::string> targets) {
   for (const auto& [name, drives] : map.drives)
-    for (const auto& [target, factor] : drives)
+    for (const auto& [target, factor] : drives) {
       if (std::ranges::find(targets, target) == targets.end())
         return fail(fmt::format("{}: '{}' drives '{}', which is no target of the face.", map.called,
                                 name, target));
-      else if (!(std::abs(factor) <= kMostFactor))
+      if (!(std::abs(factor) <= kMostFactor))
         return fail(fmt::format("{}: '{}' drives '{}' by what is no number within ±1000.",
                                 map.called, name, target));
+    }
   return {};
 }
 

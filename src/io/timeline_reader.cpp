@@ -121,10 +121,10 @@ class TimelineReader {
   Result<void> readGoals(const Json& json, const std::string& place, Goals& goals) const {
     if (json.is_object()) return readWeights(json, place, goals);
     if (!json.is_string()) return failAt(place, "goes neither to weights nor to a pose");
-    const auto pose = poses_.find(json.get<std::string>());
+    const auto name = json.get<std::string>();
+    const auto pose = poses_.find(name);
     if (pose == poses_.end())
-      return failAt(place, fmt::format("goes to a pose '{}' that 'poses' does not have",
-                                       json.get<std::string>()));
+      return failAt(place, fmt::format("goes to a pose '{}' that 'poses' does not have", name));
     goals = pose->second;
     return {};
   }

@@ -281,14 +281,14 @@ Result<std::vector<Vec3>> originalPositions(const Rig& rig, const MeshRig& sourc
   if (!rig.source.ownOrder)
     return fail(
         "The face has no source order, it was left out, so that nobody knows which vertex is "
-        "which; make the file again without --strip order.");
+        "which; make the file again with its order.");
   const std::size_t vertices = rig.source.gridVertex.size();
   if (source.neutral.positions.size() != vertices)
-    return fail(fmt::format(
-        "The neutral has {} vertices, but the face was made from {}; give the mesh it "
-        "was converted from{}.",
-        source.neutral.positions.size(), vertices,
-        source.neutral.positions.size() < vertices ? ", subdivided as it was then" : ""));
+    return fail(
+        fmt::format("The neutral has {} vertices, but the face was made from {}; give the mesh it "
+                    "was converted from{}.",
+                    source.neutral.positions.size(), vertices,
+                    source.neutral.positions.size() < vertices ? ", subdivided if it was" : ""));
   std::vector<Vec3> positions = source.neutral.positions;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     if (weights[k] == 0) continue;

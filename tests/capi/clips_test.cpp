@@ -205,7 +205,7 @@ TEST_F(Clips, OfTimelinesGoByTheirRegions) {
   everywhere.erase(everywhere.find(R"(, "region": "part")"), 18);
   ASSERT_EQ(read(everywhere), SWEEPFACE_OK) << sweepface_message();
   EXPECT_STREQ(sweepface_clip_warning(clip, 0),
-               "take: its regions count only if the face is divided by them before it is read.");
+               "take: its regions count only if the face is divided by them first.");
   ASSERT_EQ(sweepface_rig_divide_by(handle, kTimeline.data(), kTimeline.size(), "scene"),
             SWEEPFACE_OK)
       << sweepface_message();

@@ -113,6 +113,8 @@ TEST_F(Edit, RefusesWhatItCannotDo) {
       fails("edit sheet.sweep --move z9 0,0,1" + out, "There is no curve and no node named 'z9'"));
   EXPECT_TRUE(fails("edit sheet.sweep --move nose 0,0,1" + out,
                     "There is no curve and no node named 'nose'"));
+  EXPECT_TRUE(
+      fails("edit sheet.sweep --move n 0,0,1" + out, "There is no curve and no node named 'n'"));
   EXPECT_TRUE(fails("edit sheet.sweep --move n99 0,0,1" + out, "There is no node named 'n99'"));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0" + out, "three numbers"));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,nan" + out, "three numbers"));

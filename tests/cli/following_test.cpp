@@ -61,6 +61,7 @@ TEST_F(Following, TellsWhereArcsChangeNothing) {
             "sweepface: warning: No target of the expression turns about anything, so --arcs "
             "changes nothing; those that turn are jawOpen.\n");
   EXPECT_EQ(warning("shift=1,jawOpen=0.5"), "");
+  EXPECT_EQ(warning("shift=1 --limits jawOpen=0.5:1"), "");
   EXPECT_EQ(run("export face.sweep -o face.glb --arcs on").err, "");
 }
 
@@ -236,6 +237,8 @@ TEST_F(Following, PicturesGoOnArcsAndShowWhatTheyChange) {
       fails("render face.sweep -o out.png --style error --arcs on --limits x", "--limits: "));
   EXPECT_TRUE(fails("export face.sweep -o out.obj --limits 0:1,jawopen=0:0.5",
                     "--limits: Did you mean 'jawOpen'? There is no target named 'jawopen'"));
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --limits 5:1,jawopen=0:0.5",
+                    "--limits: Limits are like"));
   EXPECT_TRUE(fails("render face.sweep -o out.png --arcs on --weights jawOpen.arc=1",
                     "no target named 'jawOpen.arc'"));
   const Outcome both = run("render face.sweep -o out.png --arcs on --compare neutral.obj");

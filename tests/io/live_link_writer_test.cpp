@@ -102,12 +102,15 @@ TEST(LiveLinkWriter, NamesWithoutASideFillBothColumns) {
     matchClip(clip, targets).spread(clip, 0, before);
     matchClip(again, targets).spread(again, 0, after);
     EXPECT_EQ(after, before);
+    EXPECT_EQ(idleNames(again, matchClip(again, targets)).size(),
+              idleNames(clip, matchClip(clip, targets)).size());
   }
 }
 
 TEST(LiveLinkWriter, TakesMayPassMidnight) {
-  const Clip clip{{"jawOpen"}, {86399.5, 86400, 86400.5}, {0, 0.5, 1}};
   for (const double rate : {29.97, 60.0}) {
+    const double midnight = rate < 30 ? 86486.4 : 86400;  // its clock is slower by a thousandth
+    const Clip clip{{"jawOpen"}, {midnight - 0.5, midnight, midnight + 0.5}, {0, 0.5, 1}};
     const auto text = formatLiveLinkCsv(clip, rate);
     ASSERT_TRUE(text) << text.error().message;
     const auto again = parseLiveLinkCsv(*text, "take.csv", rate);
@@ -116,6 +119,7 @@ TEST(LiveLinkWriter, TakesMayPassMidnight) {
     for (std::size_t f = 0; f < 3; ++f) EXPECT_NEAR(again->times[f], clip.times[f], 0.6e-3 / rate);
   }
   EXPECT_FALSE(formatLiveLinkCsv({{"jawOpen"}, {10, 86410}, {0, 1}}));
+  EXPECT_FALSE(formatLiveLinkCsv({{"jawOpen"}, {86399, 130001}, {0, 1}}));
 }
 
 TEST(LiveLinkWriter, NamesMayHoldCommas) {
