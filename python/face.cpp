@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <fmt/format.h>
 #include <memory>
@@ -60,6 +61,10 @@ Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vert
     options.tolerance = numberFrom(tolerance, "The tolerance");
     if (options.tolerance == 0) throw Failure("The tolerance must be greater than 0.");
   }
+  if (eyes && (rig->find("eyeLeft.down") >= 0 || rig->find("eyeRight.down") >= 0))
+    warn(std::array<std::string, 1>{
+        "The face has targets as eyes that turn add them, like 'eyeLeft.down'; convert a file "
+        "without them."});
   std::optional<std::vector<Region>> regions;
   if (!listed.is_none()) regions = dividedBy(*rig, listed);
   const Released others;

@@ -145,6 +145,9 @@ class Faces(FaceTest):
         self.assertLess(np.abs(apart[0] - apart[1]).max(), 0.005)
         with self.refuses("no eyeballs"):
             sweepface.Face(sweepface.convert(sheet(), 0.01), eyes=True)
+        again = sheet().with_shapes({"eyeLeft.down": sheet().positions + [0, 0, 1]})
+        with self.refuses("no eyeballs"), self.assertWarnsRegex(UserWarning, "like 'eyeLeft.down'"):
+            sweepface.Face(sweepface.convert(again, 0.01), eyes=True)
 
     def test_combine_targets(self):
         flat = sheet().positions
