@@ -6,6 +6,7 @@
 
 #include "sweepface/io.hpp"
 #include "sweepface/region_file.hpp"
+#include "sweepface/regional_clips.hpp"
 
 #include "clip_part.hpp"
 
@@ -68,15 +69,12 @@ struct Parts {
   double seconds() const {
     return std::ranges::max_element(performances, {}, &Performance::seconds)->seconds;
   }
-  /// The frame times of all regions: delayed ones have others, or the same but for rounding.
+  /// The frame times of all regions.
   std::vector<double> frameTimes() const {
     std::vector<double> times;
     for (const Performance& p : performances)
       times.insert(times.end(), p.frameTimes.begin(), p.frameTimes.end());
-    std::ranges::sort(times);
-    const auto same =
-        std::ranges::unique(times, [](double a, double b) { return b - a <= 1e-12 * b; });
-    times.erase(same.begin(), same.end());
+    mergeTimes(times);
     return times;
   }
 };

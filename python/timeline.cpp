@@ -1,6 +1,5 @@
 #include "sweepface/timeline.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 #include "sweepface/io.hpp"
@@ -34,15 +33,11 @@ Timeline parsedTimeline(const std::string& text, const std::string& name) {
   return released([&] { return valueOf(parseTimeline(text, name)); });
 }
 
-/// The frames of all regions: delayed ones have others, or the same but for rounding.
 std::vector<double> framesOf(const RegionalClips& clips) {
   std::vector<double> times;
   for (const Clip& clip : clips.ofRegions)
     times.insert(times.end(), clip.times.begin(), clip.times.end());
-  std::ranges::sort(times);
-  const auto same =
-      std::ranges::unique(times, [](double a, double b) { return b - a <= 1e-12 * b; });
-  times.erase(same.begin(), same.end());
+  mergeTimes(times);
   return times;
 }
 

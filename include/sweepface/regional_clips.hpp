@@ -26,6 +26,10 @@ struct RegionalClips {
   }
 };
 
+/// Puts times of frames of several regions in order, each once: delayed regions have others, or the
+/// same but for rounding.
+void mergeTimes(std::vector<double>& times);
+
 /// A capture as R ≥ 1 regions of these matters play it, hanging on it by `hold`. Refuses matters
 /// that check() refuses, springs that Trajectory::spring() refuses, and more than kMostClipWeights
 /// weights in all.

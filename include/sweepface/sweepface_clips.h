@@ -48,8 +48,8 @@ SWEEPFACE_API sweepface_clip_options sweepface_clip_usual_options(void);
  * MediaPipe or Audio2Face, a timeline (JSON) or an animation of a .glb that has weights; told apart
  * by their content. Names are matched with the rig's targets. It is an error if none matches,
  * unless all are angles of the head and the eyes. Regions of a timeline's own count only if
- * sweepface_rig_divide_by() has divided the rig by it before. `options` may be NULL; `name` is what messages
- * call it, NULL or empty: "The clip". */
+ * sweepface_rig_divide_by() has divided the rig by it before. `options` may be NULL; `name` is what
+ * messages call it, NULL or empty: "The clip". */
 SWEEPFACE_API sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes,
                                                    size_t size, const char* name,
                                                    const sweepface_clip_options* options,

@@ -16,6 +16,13 @@ Result<void> checkRoom(const Clip& clip, std::size_t regions) {
 
 }  // namespace
 
+void mergeTimes(std::vector<double>& times) {
+  std::ranges::sort(times);
+  const auto same =
+      std::ranges::unique(times, [](double a, double b) { return b - a <= 1e-12 * b; });
+  times.erase(same.begin(), same.end());
+}
+
 Result<RegionalClips> inRegions(Clip capture, std::span<const Matter> matters, const Spring& hold) {
   if (auto ok = checkRoom(capture, matters.size()); !ok) return std::unexpected(ok.error());
   if (const auto ok = Trajectory::spring({}, 0, hold); !ok)
