@@ -73,7 +73,7 @@ Result<int> runBuild(const BuildArguments& a) {
     return fail(
         fmt::format("{} is a face already; write its wireframe as a text first: `sweepface "
                     "wireframe {} -o face.wire.json`.",
-                    a.drawing, a.drawing));
+                    a.drawing, quoted(a.drawing)));
   if (!drawing) return std::unexpected(drawing.error());
   Result<Built> built = build(*drawing);
   if (!built) return std::unexpected(built.error());

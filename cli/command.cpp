@@ -249,18 +249,23 @@ Result<Rig> readFace(const std::string& path) {
   return opened(*bytes, path);
 }
 
+std::string quoted(const std::string& path) {
+  const bool isPlain = path.find_first_of(" &()'*?;<>|#") == std::string::npos;
+  return isPlain ? path : '"' + path + '"';
+}
+
 Result<Rig> opened(std::string_view bytes, const std::string& path) {
   Result<Rig> rig = decode(bytes, path);
   if (!rig && (isGltf(path) || isOfKind(path, ".obj") || isOfKind(path, ".ply")))
     return fail(
         fmt::format("{} is a file of meshes, not a face; make one of it first: `sweepface convert "
                     "{} -o face.sweep`.",
-                    path, path));
+                    path, quoted(path)));
   if (!rig && isOfKind(path, ".json"))
     return fail(
         fmt::format("{} is a text, not a face; if it is a wireframe, make a face of it first: "
                     "`sweepface build {} -o face.sweep`.",
-                    path, path));
+                    path, quoted(path)));
   if (!rig) return rig;
   // A file of a few bytes can declare patches with any number of quads.
   const double quads = static_cast<double>(rig->surface.wireframe().quadCount());

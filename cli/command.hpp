@@ -123,6 +123,9 @@ Result<Weights> weightsGiven(std::string_view option, std::string_view text, con
 
 // ---- Files ----
 
+/// A path as it is given in a shell.
+std::string quoted(const std::string& path);
+
 Result<Rig> readFace(const std::string& path);
 /// Decodes a face. Messages name `path` as the origin of the bytes.
 Result<Rig> opened(std::string_view bytes, const std::string& path);

@@ -97,7 +97,7 @@ struct Summary {
 
 nlohmann::ordered_json toJson(const Summary& s) {
   const Rig& rig = s.conversion.rig;
-  const auto& [tolerance, worst, worstShape, angleRms, folds, kept] = s.verified;
+  const auto& [tolerance, worst, worstShape, angle, folds, kept] = s.verified;
   return {{"file", s.arguments.output},
           {"patches", rig.surface.patchCount()},
           {"vectors", rig.surface.storedCount()},
@@ -107,7 +107,8 @@ nlohmann::ordered_json toJson(const Summary& s) {
           {"worstDistance", worst.distance},
           {"worstVertex", worst.vertex},
           {"worstShape", worstShape},
-          {"angleRms", angleRms},
+          {"angleRms", angle.rms},
+          {"angleMax", angle.max},
           {"folds", folds},
           {"kept", kept},
           {"bytes", s.bytes},
@@ -123,10 +124,13 @@ void printText(const Summary& s) {
              s.arguments.output, rig.surface.patchCount(), points,
              100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
   printDistance(s.verified);
-  fmt::print("normals {:.4g} {}, RMS over all expressions\n", s.verified.angleRms,
-             s.arguments.normalTolerance > 0
-                 ? fmt::format("of {:.4g} degrees allowed", s.arguments.normalTolerance)
-                 : "degrees off");
+  const ConvertArguments& a = s.arguments;
+  fmt::print("normals {:.4g} {}, RMS over all expressions; at most {:.4g}{}\n",
+             s.verified.angle.rms,
+             a.normalTolerance > 0 ? fmt::format("of {:.4g} degrees allowed", a.normalTolerance)
+                                   : "degrees off",
+             s.verified.angle.max,
+             a.normalLimit > 0 ? fmt::format(" (aim: {:.4g})", a.normalLimit) : "");
   const std::vector<Index>& folds = s.verified.folds;
   if (const auto most = std::ranges::max_element(folds); *most > 0)
     fmt::print("{} triangles fold over, most in {} ({}); sweepface measure tells more\n",

@@ -79,7 +79,7 @@ Result<int> packAndWrite(const PackArguments& a) {
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
   bar->show("packing", 0);
   const MeshRig meshes = meshesOf(*before);
-  const Looks looks{normalRms(*before, meshes), sumOf(countFolds(*before, meshes))};
+  const Looks looks{normalErrors(*before, meshes).rms, sumOf(countFolds(*before, meshes))};
   if (interrupted) return kInterrupted;
   Rig rig = *before;
   const Result<double> tolerance = pack(rig, optionsOf(a, *bar));
@@ -103,7 +103,7 @@ Result<int> packAndWrite(const PackArguments& a) {
   fmt::print("{}: {} bytes, {:.1f} % of {}\n", a.output, bytes.size(),
              100.0 * static_cast<double>(bytes.size()) / static_cast<double>(file->size()), a.face);
   printDistance(*verified);
-  printLooks({verified->angleRms, sumOf(verified->folds)}, looks);
+  printLooks({verified->angle.rms, sumOf(verified->folds)}, looks);
   return 0;
 }
 

@@ -34,7 +34,7 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
     return Verified{tolerance,
                     worst,
                     std::move(shape),
-                    normalRms(*rig, source),
+                    normalErrors(*rig, source),
                     countFolds(*rig, source),
                     keptMovement(*rig, source)};
   return fail(
@@ -45,7 +45,7 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
 }
 
 void printDistance(const Verified& verified) {
-  const auto& [tolerance, worst, shape, angleRms, folds, kept] = verified;
+  const auto& [tolerance, worst, shape, angle, folds, kept] = verified;
   fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", worst.distance,
              tolerance, worst.vertex, shape);
 }

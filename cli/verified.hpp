@@ -14,7 +14,7 @@ struct Verified {
   double tolerance = 0;
   FurthestVertex worst;
   std::string worstShape;
-  double angleRms = 0;
+  NormalErrors angle;
   std::vector<Index> folds;  // in the neutral and every target
   std::vector<double> kept;  // the share of every target's movement
 };

@@ -65,10 +65,14 @@ FurthestVertex furthestVertex(const Rig& rig, const MeshRig& source);
 /// `vertex` is a source vertex that stands there, or if there is none, that of level 1.
 FurthestVertex furthestVertex(const Rig& rig, const Rig& before);
 
-/// The angle between the surface's normal and the source's vertex normal, in degrees: its root mean
-/// square over all vertices of the neutral and of every target. `source` must be what the rig was
-/// made from, with its targets in the same order, and the rig must know the source's order.
-double normalRms(const Rig& rig, const MeshRig& source);
+/// The angle between the surface's normal and the source's vertex normal, in degrees.
+struct NormalErrors {
+  double rms = 0, max = 0;
+};
+
+/// Over all vertices of the neutral and of every target. `source` must be what the rig was made
+/// from, with its targets in the same order, and the rig must know the source's order.
+NormalErrors normalErrors(const Rig& rig, const MeshRig& source);
 
 /// The share of every target's movement that a rig keeps [K]: Σ d·d' / Σ d·d over the corners of
 /// faces, where d is a vertex's displacement from the neutral in the source and d' that in the rig;

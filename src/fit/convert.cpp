@@ -171,7 +171,8 @@ class Converter {
     double angle = kAngleShare * normals.limit;
     if (!(options_.normalTolerance > 0)) return packOnce(rig, angle);
     normalRms_ = std::numeric_limits<double>::infinity();
-    if (normalRms(fitted, source_) > (normals.isGuided ? options_.normalTolerance : nearest_))
+    if (normalErrors(fitted, source_).rms >
+        (normals.isGuided ? options_.normalTolerance : nearest_))
       return {};
     constexpr int kTries = 8;
     for (int attempt = 0; attempt < kTries; ++attempt) {
@@ -180,7 +181,7 @@ class Converter {
         if (attempt > 0 && !progress_.cancelled()) break;  // only the angle was too small
         return ok;
       }
-      const double rms = normalRms(rig, source_),
+      const double rms = normalErrors(rig, source_).rms,
                    before = std::exchange(normalRms_, std::min(normalRms_, rms));
       if (rms <= options_.normalTolerance || rms > kGain * before) break;
       progress_.reportPacking(

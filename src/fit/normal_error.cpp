@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "sweepface/eval.hpp"
@@ -20,20 +21,20 @@ std::vector<double> anglesIn(const Rig& rig, const Tessellation& grid, const Wei
 
 }  // namespace
 
-double normalRms(const Rig& rig, const MeshRig& source) {
+NormalErrors normalErrors(const Rig& rig, const MeshRig& source) {
   const Tessellation grid(rig.surface, 1);
   const std::vector<Index> places = cornerPlaces(rig.source, grid);
   std::vector<std::vector<double>> angles(rig.targets.size() + 1);
   parallelFor(Index{0}, static_cast<Index>(angles.size()), [&](Index pose) {
     angles[pose] = anglesIn(rig, grid, rig.weightsOf(pose), places, source.positionsOf(pose));
   });
-  double squares = 0;
+  double squares = 0, largest = 0;
   std::size_t count = 0;
   for (const std::vector<double>& pose : angles) {
-    for (const double angle : pose) squares += angle * angle;
+    for (const double angle : pose) squares += angle * angle, largest = std::max(largest, angle);
     count += pose.size();
   }
-  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+  return {count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0, largest};
 }
 
 }  // namespace sweepface

@@ -10,13 +10,19 @@ namespace {
 
 using namespace sweepface::testing;
 
+/// Small files of version 2, some of them packed.
+std::vector<std::string> rangeCodedFiles() {
+  std::vector<std::string> files;
+  for (const Rig& rig : someRigs()) files.push_back(encode(rig));
+  for (const Rig& rig : {packed(dressed(makeRig(tee()))), everything()})
+    files.push_back(encode(rig));
+  return files;
+}
+
 /// Small files of both versions.
 std::vector<std::string> someFiles() {
-  std::vector<std::string> files;
-  for (const Rig& rig : someRigs()) {
-    files.push_back(encodeVersion1(rig));
-    files.push_back(encode(rig));
-  }
+  std::vector<std::string> files = rangeCodedFiles();
+  for (const Rig& rig : someRigs()) files.push_back(encodeVersion1(rig));
   return files;
 }
 
@@ -96,8 +102,8 @@ TEST(Damage, EveryTruncationOfAPayloadIsRefused) {
 
 // A range decoder reads missing bytes as zeros, so a truncated payload may still be valid.
 TEST(Damage, ATruncatedRangeCodedPayloadLeavesASoundRigOrNone) {
-  for (const Rig& rig : someRigs()) {
-    auto chunks = takeApart(encode(rig));
+  for (const std::string& bytes : rangeCodedFiles()) {
+    auto chunks = takeApart(bytes);
     for (FileChunk& chunk : chunks) {
       const std::string whole = chunk.payload;
       for (std::size_t size = 0; size < whole.size(); ++size) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <random>
 
 #include "codec/bones.hpp"
 #include "codec/lattice.hpp"
@@ -57,6 +58,54 @@ inline Rig everything() {
   rig = packed(std::move(rig));
   rig.targets[1].difference[2].x = 1.0 / 3;  // not a multiple of any step
   return rig;
+}
+
+/// The vertices of the source in another order.
+inline void shuffle(SourceMesh& source) {
+  std::mt19937 random(5);
+  std::vector<Index> place;  // [vertices] where each goes
+  for (Index v = 0; v < static_cast<Index>(source.gridVertex.size()); ++v) {
+    place.push_back(v);
+    std::swap(place[v], place[random() % (v + 1u)]);
+  }
+  const std::vector<Index> before = source.gridVertex;
+  for (std::size_t v = 0; v < before.size(); ++v) source.gridVertex[place[v]] = before[v];
+  for (Index& corner : source.polygons.corners) corner = place[corner];
+}
+
+// What lies beyond the numbers at which the format's searches end.
+
+/// One target that moves a little, and no source.
+inline Rig small(Wireframe wireframe) {
+  Rig rig = makeRig(std::move(wireframe));
+  rig.targets = {rig.targets[1]};
+  for (Vec3& v : rig.neutral) v = 0.02 * v;
+  for (Vec3& v : rig.targets[0].difference) v = 0.04 * v;
+  rig.source = {};
+  return packed(std::move(rig));
+}
+
+/// A site of more nodes than a search for near sites goes on from.
+inline Rig spokes() { return small(fan(200)); }
+
+/// A node of more arms than wait in such a search.
+inline Rig hub() {
+  Wireframe wireframe = wheel(900);
+  for (Node& node : wireframe.nodes) node.stored = kPosition;
+  for (Arc& arc : wireframe.arcs) {
+    arc.edges = 1;
+    for (Index* node : {&arc.from, &arc.to})
+      if (*node > 0) *node = wireframe.points - *node;  // so that the last arm leads to the first
+  }
+  return small(std::move(wireframe));
+}
+
+/// Vertices in no order, so that many neighbour one of which the trail has just lost sight.
+inline Rig disorder() {
+  Rig rig = makeRig(sheet(12));
+  rig.targets.clear();
+  shuffle(rig.source);
+  return packed(std::move(rig));
 }
 
 }  // namespace sweepface::testing

@@ -27,28 +27,12 @@ Wireframe creased() {
   return w;
 }
 
-// Patches around a node whose curves are all creases: it stores derivatives along each crease and
-// in each patch.
-Wireframe star(Index creases) {
-  Wireframe w;
-  w.points = 1 + 2 * creases;
-  for (Index k = 0; k < w.points; ++k) w.nodes.push_back({k, kPosition});
-  for (Index k = 0; k < creases; ++k) {
-    const Index next = (k + 1) % creases, start = 4 * k;
-    w.arcs.push_back({0, 1 + k, 1, 0, false, true});
-    w.arcs.push_back(arc(1 + k, 1 + creases + k, 1, 0));
-    w.arcs.push_back(arc(1 + creases + k, 1 + next, 1, 0));
-    w.patches.push_back({{start, start + 1, start + 2, start + 3, start + 4}});
-    for (const HalfArc h : {6 * k, 6 * k + 2, 6 * k + 4, 6 * next + 1}) w.loops.push_back(h);
-  }
-  w.ribbons = {{}};
-  return w;
-}
-
 /// Wireframes of every kind: grids large and small, T-nodes, poles, creases.
 std::vector<Wireframe> someWireframes() {
-  return {onePatch(1, 1), onePatch(7, 4), twoPatches(), slice(), tee(),
-          fan(3),         fan(6),         creased(),    star(6), sheet(8)};
+  return {onePatch(1, 1), onePatch(7, 4), twoPatches(),
+          slice(),        tee(),          fan(3),
+          fan(6),         creased(),      wheel(6, {0, 1, 2, 3, 4, 5}),
+          sheet(8)};
 }
 
 std::vector<Surface> someSurfaces() {
@@ -275,7 +259,7 @@ TEST(Packing, VectorsOnTheLatticeComeBackBitForBitWithoutBeingHeldAsTheyAre) {
 
 // The node has more vectors than an integer has bits.
 TEST(Packing, OnlyTheFirstOfManyVectorsOfANodeMoves) {
-  Rig rig = packed(star(6));
+  Rig rig = packed(wheel(6, {0, 1, 2, 3, 4, 5}));
   const auto isAtTheCentre = [&](Index v) { return rig.surface.stored(v).node == 0; };
   Index first = 0;
   while (!isAtTheCentre(first)) ++first;

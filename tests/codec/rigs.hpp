@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
 
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
@@ -112,6 +113,27 @@ inline Wireframe fan(Index slices) {
       w.loops.push_back(h);
   }
   w.ribbons = {{}, {}};
+  return w;
+}
+
+/// `valence` patches around node 0; arc 3k leads out of it, with patch k on its left.
+inline Wireframe wheel(Index valence, const std::set<Index>& creases = {}) {
+  Wireframe w;
+  w.points = 1 + 2 * valence;
+  for (Index k = 0; k < w.points; ++k) w.nodes.push_back({k, kWholeJet});
+  for (Index k = 0; k < valence; ++k) {
+    const Index out = 1 + k, corner = 1 + valence + k, next = 1 + (k + 1) % valence;
+    w.arcs.push_back(arc(0, out, 2, 0));
+    w.arcs.push_back(arc(out, corner, 2, 0));
+    w.arcs.push_back(arc(corner, next, 2, 0));
+    w.arcs[3 * k].crease = creases.contains(k);
+  }
+  for (Index k = 0; k < valence; ++k) {
+    w.patches.push_back({{4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3, 4 * k + 4}});
+    for (HalfArc h : {6 * k, 6 * k + 2, 6 * k + 4, 6 * ((k + 1) % valence) + 1})
+      w.loops.push_back(h);
+  }
+  w.ribbons = {{}};
   return w;
 }
 

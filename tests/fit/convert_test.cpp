@@ -207,7 +207,7 @@ TEST(Convert, bendsNothingWhereFacesHaveManyCorners) {
   addFace(rig.neutral, top);
   const auto converted = convert(rig);
   ASSERT_TRUE(converted);
-  EXPECT_LT(normalRms(converted->rig, rig), 1);
+  EXPECT_LT(normalErrors(converted->rig, rig).rms, 1);
 }
 
 /// A bent strip, one quad wide, that ends in a triangle and is flat in one expression.
@@ -226,7 +226,7 @@ TEST(Convert, hasNormalsAtTheTipsOfLashes) {
   const auto converted = convert(rig);
   ASSERT_TRUE(converted) << converted.error().message;
   EXPECT_LE(worstDistance(converted->rig, rig), converted->rig.tolerance);
-  EXPECT_LT(normalRms(converted->rig, rig), 3);
+  EXPECT_LT(normalErrors(converted->rig, rig).rms, 3);
 }
 
 TEST(Convert, givesLooseVerticesBackExactly) {
@@ -334,12 +334,12 @@ TEST(Packed, normalsComeAsNearAsIsAskedWithFinerSteps) {
   options.tolerance = 0.002 * diagonal(source.neutral);
   const auto usual = convert(source, options);
   ASSERT_TRUE(usual) << usual.error().message;
-  options.normalTolerance = normalRms(usual->rig, source) / 10;
+  options.normalTolerance = normalErrors(usual->rig, source).rms / 10;
   std::set<std::string> told;
   options.progress = [&](std::string_view what, double) { told.emplace(what); };
   const auto near = convert(source, options);
   ASSERT_TRUE(near) << near.error().message;
-  EXPECT_LE(normalRms(near->rig, source), options.normalTolerance);
+  EXPECT_LE(normalErrors(near->rig, source).rms, options.normalTolerance);
   EXPECT_LT(near->rig.packing.targetStep, usual->rig.packing.targetStep);
   EXPECT_TRUE(std::ranges::any_of(
       told, [](const std::string& what) { return what.starts_with("packing, normals "); }));

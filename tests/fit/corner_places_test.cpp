@@ -96,7 +96,8 @@ TEST(CornerPlaces, areWhereTheVerticesAreOnASingleSheet) {
 /// Otherwise they would be the sum over both windings, which lies in the surface.
 TEST(CornerPlaces, giveEverySheetNormalsOfItsOwn) {
   const MeshRig whole = withTargets(plane()), reversed = withTargets(halfReversed(plane()));
-  EXPECT_LE(normalRms(packed(reversed, 0.02), reversed), 3 * normalRms(packed(whole, 0.02), whole));
+  EXPECT_LE(normalErrors(packed(reversed, 0.02), reversed).rms,
+            3 * normalErrors(packed(whole, 0.02), whole).rms);
 }
 
 }  // namespace
