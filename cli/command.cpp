@@ -347,7 +347,9 @@ bool isOfKind(std::string_view path, std::string_view kind) {
   return extensionOf(utf8Path(path)) == kind;
 }
 
-bool isGltf(std::string_view path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }
+bool isGltf(std::string_view path) {
+  return isOfKind(path, ".glb") || isOfKind(path, ".gltf") || isOfKind(path, ".vrm");
+}
 
 Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar, bool withScene) {
   std::vector<fs::path> paths;

@@ -125,12 +125,11 @@ void printText(const Summary& s) {
              100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
   printDistance(s.verified);
   const ConvertArguments& a = s.arguments;
-  fmt::print("normals {:.4g} {}, RMS over all expressions; at most {:.4g}{}\n",
-             s.verified.angle.rms,
-             a.normalTolerance > 0 ? fmt::format("of {:.4g} degrees allowed", a.normalTolerance)
-                                   : "degrees off",
-             s.verified.angle.max,
-             a.normalLimit > 0 ? fmt::format(" (aim: {:.4g})", a.normalLimit) : "");
+  fmt::print(
+      "normals {:.4g} {}, RMS over all expressions; at most {:.4g}{}\n", s.verified.angle.rms,
+      a.normalTolerance > 0 ? fmt::format("of {:.4g} degrees allowed", a.normalTolerance)
+                            : "degrees off",
+      s.verified.angle.max, a.normalLimit > 0 ? fmt::format(" (aim: {:.4g})", a.normalLimit) : "");
   const std::vector<Index>& folds = s.verified.folds;
   if (const auto most = std::ranges::max_element(folds); *most > 0)
     fmt::print("{} triangles fold over, most in {} ({}); sweepface measure tells more\n",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/ranges.h>
+#include <functional>
 #include <ranges>
 
 #include "sweepface/arcs.hpp"
@@ -45,20 +46,56 @@ std::string listed(const std::vector<Index>& targets, const std::vector<std::str
   return fmt::format("{}", fmt::join(named, " and "));
 }
 
-/// Warns of targets that would be combinations if names did not differ in capitals and separators.
+/// A name in small letters, with underscores for separators.
+std::string plainly(std::string name) {
+  for (char& c : name) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c == '-' || c == '.' || c == ' ' || c == '+') c = '_';
+  }
+  const auto repeated =
+      std::ranges::unique(name, [](char a, char b) { return a == '_' && b == '_'; });
+  name.erase(repeated.begin(), repeated.end());
+  return name;
+}
+
+/// The other targets whose names stand in that of one, the longest first and each apart from those
+/// before; those that follow others themselves do not count.
+std::vector<Index> namedIn(Index target, const std::vector<std::string>& names,
+                           const std::vector<Follower>& followers) {
+  constexpr std::size_t kShortest = 4;  // letters: shorter names stand in others by chance
+  std::vector<Index> order;
+  for (Index k = 0; k < std::ssize(names); ++k)
+    if (std::ranges::find(followers, k, &Follower::target) == followers.end()) order.push_back(k);
+  std::ranges::stable_sort(order, std::greater{}, [&](Index k) { return names[k].size(); });
+  std::string name = names[target];
+  std::vector<Index> found;
+  for (const Index k : order) {
+    const std::size_t at = name.find(names[k]);
+    if (names[k].size() < kShortest || names[k] == names[target] || at == name.npos) continue;
+    found.push_back(k);
+    name.replace(at, names[k].size(), 1, '\0');
+  }
+  return found;
+}
+
+/// Warns of targets that would be combinations if names did not differ in capitals and separators,
+/// or had nothing besides the names of others.
 void warnOfSpellings(const std::vector<std::string>& names,
                      const std::vector<Follower>& followers) {
-  std::vector<std::string> plain = names;
-  for (std::string& name : plain)
-    for (char& c : name) {
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-      if (c == '-' || c == '.' || c == ' ') c = '_';
-    }
-  for (const Follower& f : Followers::named(plain))
-    if (std::ranges::find(followers, f.target, &Follower::target) == followers.end())
+  std::vector<std::string> plain;
+  for (const std::string& name : names) plain.push_back(plainly(name));
+  const std::vector<Follower> alike = Followers::named(plain);
+  for (Index k = 0; k < std::ssize(names); ++k) {
+    if (std::ranges::find(followers, k, &Follower::target) != followers.end()) continue;
+    const auto meant = std::ranges::find(alike, k, &Follower::target);
+    const std::vector<Index> leaders =
+        meant != alike.end() ? meant->leaders : namedIn(k, plain, alike);
+    const bool isStop = !leaders.empty() && plain[k].back() >= '0' && plain[k].back() <= '9';
+    if (leaders.size() > 1 || isStop || meant != alike.end())
       printWarning(
           fmt::format("--combine: {} does not follow {}, as it is not spelt alike; rename it.",
-                      names[f.target], listed(f.leaders, names)));
+                      names[k], listed(leaders, names)));
+  }
 }
 
 /// The followers that the names of the targets define.

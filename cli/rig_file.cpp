@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "output.hpp"
+
 namespace sweepface::cli {
 
 void addRigFile(CLI::App& app, RigFileArguments& a) {
@@ -10,12 +12,15 @@ void addRigFile(CLI::App& app, RigFileArguments& a) {
   app.add_flag("--quantize", a.quantize,
                "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
   app.add_option("--meters-per-unit", a.metersPerUnit,
-                 "For .usda and .usdz: how long a unit of the face is, 0.01 for centimetres; if "
-                 "not given 1 for a face with the scene of a .glb, what a drawing says its units "
-                 "are, or 0.01")
+                 "For .glb, .usda and .usdz: how long a unit of the face is, 0.01 for centimetres. "
+                 "In a .glb 1 if not given, as always for a face with the scene of one; in a .usda "
+                 "1 for such a face, what a drawing says its units are, or 0.01")
       ->check(positiveNumber(1e9))
       ->type_name("M");
-  app.add_flag("--z-up", a.zUp, "For .usda and .usdz: z points up in the face, instead of y");
+  app.add_flag(
+      "--z-up", a.zUp,
+      "For .glb (but not with the scene of one), .usda and .usdz: z points up in the face, "
+      "instead of y");
 }
 
 Result<void> checkRigFile(const RigFileArguments& a, std::string_view output) {
@@ -24,10 +29,11 @@ Result<void> checkRigFile(const RigFileArguments& a, std::string_view output) {
     return fail(
         fmt::format("{} for {} files; name the output so or leave that out.", options, kinds));
   };
-  if (a.morphNormals && !glb && !usd) return refuse("--morph-normals is", ".glb, .usda and .usdz");
+  for (const auto& [isGiven, option] : {std::pair(a.morphNormals, "--morph-normals is"),
+                                        {a.metersPerUnit > 0, "--meters-per-unit is"},
+                                        {a.zUp, "--z-up is"}})
+    if (isGiven && !glb && !usd) return refuse(option, ".glb, .usda and .usdz");
   if (a.quantize && !glb) return refuse("--quantize is", ".glb");
-  if (a.metersPerUnit > 0 && !usd) return refuse("--meters-per-unit is", ".usda and .usdz");
-  if (a.zUp && !usd) return refuse("--z-up is", ".usda and .usdz");
   return {};
 }
 
@@ -36,6 +42,7 @@ bool isUsd(std::string_view path) {
 }
 
 Result<std::string> formatUsdFor(std::string_view path, const Rig& rig, const UsdOptions& options) {
+  if (const std::string leftOut = leftOutOfUsd(rig); !leftOut.empty()) printWarning(leftOut);
   return (isOfKind(path, ".usdz") ? formatUsdz : formatUsd)(rig, options);
 }
 

@@ -13,7 +13,11 @@ struct RigFileArguments {
   double metersPerUnit = 0;  // 0: not given
 
   GlbOptions glb(Index lod) const {
-    return {.lod = lod, .morphNormals = morphNormals, .quantize = quantize};
+    return {.lod = lod,
+            .morphNormals = morphNormals,
+            .quantize = quantize,
+            .metersPerUnit = metersPerUnit,
+            .zUp = zUp};
   }
   UsdOptions usd(Index lod) const {
     return {.lod = lod, .morphNormals = morphNormals, .metersPerUnit = metersPerUnit, .zUp = zUp};

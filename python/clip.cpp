@@ -112,6 +112,7 @@ Clip withNames(Clip clip, const py::object& names, const Rig& rig) {
   for (const auto& [name, driven] : mappingFrom(names, "Names"))
     map.drives.emplace_back(textFrom(name, "A name"),
                             drivesFrom(py::reinterpret_borrow<py::object>(driven)));
+  if (map.drives.empty()) throw Failure("Names are empty; give targets by names of the clip.");
   clip.warnings.clear();
   Clip other = valueOf(renamed(std::move(clip), map, rig.targetNames()));
   warn(other.warnings);

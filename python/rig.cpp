@@ -85,13 +85,14 @@ class RigFileOptions {
 };
 
 void saveGlb(const Rig& rig, const std::filesystem::path& path, const RigFile& given, bool quantize,
-             double keyTolerance) {
+             double keyTolerance, double metersPerUnit, bool zUp) {
   checkKind(path, ".glb");
   if (keyTolerance > 0 && !given.clip)
     throw Failure("key_tolerance is for the keys of a clip; give one.");
   const RigFileOptions file(rig, given);
   auto options = file.make<GlbOptions>();
   options.quantize = quantize, options.keyTolerance = keyTolerance;
+  options.metersPerUnit = metersPerUnit, options.zUp = zUp;
   released([&] { return valueOf(writeFile(path, valueOf(formatGlb(rig, options)))); });
 }
 
@@ -107,6 +108,7 @@ void saveUsd(const Rig& rig, const std::filesystem::path& path, const RigFile& g
   if (!timeCodesPerSecond.is_none())
     options.timeCodesPerSecond = numberFrom(timeCodesPerSecond, "time_codes_per_second");
   options.metersPerUnit = metersPerUnit, options.zUp = zUp;
+  if (const std::string leftOut = leftOutOfUsd(rig); !leftOut.empty()) warn({&leftOut, 1});
   released([&] {
     return valueOf(writeFile(path, valueOf((isArchive ? formatUsdz : formatUsd)(rig, options))));
   });
@@ -215,15 +217,16 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           [](const Rig& r, const std::filesystem::path& path, Index level,
              const py::object& vertices, const py::object& edgeLength, const py::object& error,
              bool morphNormals, bool quantize, const py::object& weights, const Clip* clip,
-             double keyTolerance, bool head, const py::object& pivot) {
+             double keyTolerance, bool head, const py::object& pivot, double metersPerUnit,
+             bool zUp) {
             saveGlb(r, path,
                     {level, vertices, edgeLength, error, morphNormals, weights, clip, head, pivot},
-                    quantize, keyTolerance);
+                    quantize, keyTolerance, metersPerUnit, zUp);
           },
           "path"_a, py::kw_only(), "level"_a = 0, "vertices"_a = py::none(),
           "edge_length"_a = py::none(), "error"_a = py::none(), "morph_normals"_a = false,
           "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr, "key_tolerance"_a = 0,
-          "head"_a = false, "pivot"_a = py::none(),
+          "head"_a = false, "pivot"_a = py::none(), "meters_per_unit"_a = 0, "z_up"_a = false,
           "Writes a GLB with the targets as morph targets, in the scene that came with the rig, if "
           "one did. level 0: the source's vertices; N: every edge cut into N. Or a budget instead: "
           "at most so many vertices, no longer edges along curves, or no edge further than error "
@@ -231,7 +234,8 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
           "whole numbers (KHR_mesh_quantization); weights are those at which the face is shown. A "
           "clip becomes an animation, in as few keys as keep its weights within key_tolerance, if "
           "that is given. With head, the whole model turns by the clip's angles of the head, about "
-          "the pivot [3] or else its middle.")
+          "the pivot [3] or else its middle. Of a rig without a scene, meters_per_unit (0: 1) is "
+          "how long a unit is, and z_up says that z points up.")
       .def(
           "save_usd",
           [](const Rig& r, const std::filesystem::path& path, Index level,

@@ -45,7 +45,7 @@ async function show(source, name, keepView = false) {
       aim = [{}];
       placeCamera(mesh);
     }
-    tellName(name);
+    document.title = `${name} · Sweepface`;
     buildSliders(mesh, setWeight);
     drawLines();
     draw(0);
@@ -96,11 +96,6 @@ function prepare(face) {
 
 function invite() {
   say('Drop a .sweep file here, or open one.');
-}
-
-function tellName(name) {
-  document.title = `${name} · Sweepface`;
-  stage.dataset.face = name;
 }
 
 function remove() {

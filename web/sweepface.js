@@ -1,7 +1,7 @@
 // Plays .sweep faces in browsers and in Node.
 import {DRIVE_SIZE, writeDrive} from './sweepface_drives.js';
 import {open, Shared} from './sweepface_file.js';
-import {isFloats, isGiven, kindOf, known, MOST, overlap, told} from './sweepface_values.js';
+import {checkTime, isFloats, isGiven, kindOf, known, MOST, overlap, told} from './sweepface_values.js';
 import {MemoryError} from './sweepface_wasm.js';
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
@@ -232,8 +232,7 @@ export class Sweepface {
   /** Advances the weights in motion; returns whether anything still moves. */
   advance(seconds) {
     const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#own.memory;
-    if (!Number.isFinite(seconds))
-      throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
+    checkTime(seconds);
     if (!this.#own.motion) return false;
     const still = 1e-6, before = this.#copyWeights().slice(), {motion} = this.#own;
     const isMoving = wasm.sweepface_motion_moves(motion, still) === 1;

@@ -8,12 +8,14 @@ export interface SweepfaceMesh extends Moved {}
 /** A face in a scene of Babylon.js. Weights are set at any time; whenever the scene is rendered, the face moves on by
  * the time of its animations and the mesh follows. */
 export class SweepfaceMesh extends Mesh {
-  /** Loads a face from a URL or from bytes, and makes its mesh. */
-  static load(source: string | URL | Bytes, scene: Scene, options?: LoadOptions): Promise<SweepfaceMesh>;
-  /** Unless a material is given, each part of the face gets a plain one, named as in the source, in a MultiMaterial if
-   * there are several. Every mesh needs a face of its own, which clone() makes at little cost: it frees the face with
-   * itself. */
-  constructor(name: string, scene: Scene, face: Sweepface, material?: Material);
+  /** Loads a face from a URL or from bytes, and makes its mesh in a scene: the last one that was made unless given. */
+  static load<M extends SweepfaceMesh>(
+    this: new (name: string, scene: any, face: Sweepface) => M, source: string | URL | Bytes, scene?: Scene | null,
+    options?: LoadOptions): Promise<M>;
+  /** Without a scene it belongs to the last one that was made. Unless a material is given, each part of the face gets a
+   * plain one, named as in the source, in a MultiMaterial if there are several. Every mesh needs a face of its own, which
+   * clone() makes at little cost: it frees the face with itself. */
+  constructor(name: string, scene: Scene | null | undefined, face: Sweepface, material?: Material);
   /** For reading: what is set there does not show. */
   readonly face: Sweepface;
   /** Whether time passes with the frames of the scene: true at first. Set it to false where something else advances the

@@ -46,7 +46,7 @@ function passing(scene, milliseconds) {
   if (!scene.animationsEnabled) return 0;
   if (engine.isDeterministicLockStep()) return engine.getTimeStep() / 1000;
   if (scene.useConstantAnimationDeltaTime) return 0.016;  // whatever the scale of time
-  return Math.max(milliseconds * scene.animationTimeScale, 0) / 1000;
+  return milliseconds * scene.animationTimeScale / 1000;
 }
 
 async function download(url) {
@@ -84,7 +84,7 @@ export class SweepfaceMesh extends Mesh {
   #vectors;
   #stale = true;
   #moving;
-  #observers = [];
+  #removals = [];  // of observers, functions
   #material;  // that it was made with
   #isMirrored;
 
@@ -140,14 +140,17 @@ export class SweepfaceMesh extends Mesh {
     this.material = this.#material = material ?? this.#makeMaterial();
     const {onAfterAnimationsObservable, onBeforeRenderTargetsRenderObservable} = this.getScene();
     let before;
-    this.#observers = [
-      onAfterAnimationsObservable.add((scene) => {  // not called if a frame ignores animations
-        const now = performance.now();
-        this.#pass(this.advancesWithScene ? passing(scene, now - (before ?? now)) : 0);
-        before = now;
-      }),
-      onBeforeRenderTargetsRenderObservable.add(() => this.update())  // after all that set weights before the frame
-    ];
+    this.#watch(onAfterAnimationsObservable, (scene) => {  // not called if a frame ignores animations
+      const now = performance.now();
+      this.#pass(this.advancesWithScene ? passing(scene, now - (before ?? now)) : 0);
+      before = now;
+    });
+    this.#watch(onBeforeRenderTargetsRenderObservable, () => this.update());  // after all that set weights before the frame
+  }
+
+  #watch(observable, call) {
+    const observer = observable.add(call);
+    this.#removals.push(() => observable.remove(observer));
   }
 
   #makeGeometry() {
@@ -214,7 +217,6 @@ export class SweepfaceMesh extends Mesh {
   moveTo(goals, drive, region) {
     this.face.moveTo(goals, drive, region);
     this.advance(0);  // cuts are there at once
-    this.#moving = true;
   }
 
   push(name, velocityChange, drag) {
@@ -269,7 +271,7 @@ export class SweepfaceMesh extends Mesh {
   }
 
   dispose(doNotRecurse, disposeMaterialAndTextures = false) {
-    for (const observer of this.#observers) observer.remove();
+    for (const remove of this.#removals) remove();  // later, if they are being called
     const materials = new Set([this.#material, this.material]);
     super.dispose(doNotRecurse, disposeMaterialAndTextures);
     materials.forEach(release);

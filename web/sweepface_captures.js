@@ -211,10 +211,14 @@ function readAudio2Face(json, name, fail) {
 
 function readMediaPipe(frames, framesPerSecond, name, fail) {
   if (frames.length === 0) throw fail('has no frames');
+  let broken = 0;
   const times = [], scores = frames.map((frame, f) => {
     times.push(timeIn(frame, f, framesPerSecond, fail));
     if (f > 0 && times[f] <= times[f - 1]) throw fail(`has a time in frame ${f} that is not after the one before`);
-    return scoresOf(frame, f, fail);
+    const found = scoresOf(frame, f, fail), angles = found.size > 0 ? headOf(frame) : [];
+    if (angles) for (const [name, angle] of angles) found.set(name, angle);
+    else ++broken;
+    return found;
   });
   const shapes = new Set(scores.flatMap((frame) => [...frame.keys()].sort()));
   const names = [...shapes].filter((shape) => shape !== '_neutral');
@@ -234,6 +238,9 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
     names.forEach((shape, k) => { weights[row * names.length + k] = frame.get(shape) ?? 0; });
   });
   const clip = new Clip(names, Float64Array.from(kept, (f) => times[f]), weights);
+  if (broken > 0)
+    clip.warnings.push(`${name}: ${broken} of ${frames.length} frames have a transformation of the face that is no matrix ` +
+                       'of 4 × 4 numbers; how the head turns there is left out.');
   const step = 1000 * (times[last] - times[0]) / last, lost = found.filter((has) => !has).length;
   if (step < 1 || step > 5000)  // no camera does that
     clip.warnings.push(`${name}: frames are ${step > 1 ? Math.round(step) : Number(step.toPrecision(3))} ms apart; are the ` +
@@ -272,6 +279,27 @@ function scoresOf(frame, f, fail) {
     if (!isWeight(category.score)) throw fail(`has a score in frame ${f} that is not within ±1,000,000`);
     return [shape, category.score];
   }));
+}
+
+/** The first three numbers of the columns of a matrix: an object as in JavaScript, or a list of rows as in Python. */
+function columnsOf4x4(matrix) {
+  const {data = Array.isArray(matrix) && matrix.every((row) => row?.length === 4) ? matrix.flat() : null} = matrix ?? {};
+  if (!Array.isArray(data) || data.length !== 16 || !data.every(Number.isFinite)) return null;
+  const [down, across] = data === matrix.data ? [1, 4] : [4, 1];
+  return [0, 1, 2].map((c) => [0, 1, 2].map((r) => data[c * across + r * down]));
+}
+
+/** How the head of a frame turns, by left-handed angles; none without a matrix, null if it is broken. */
+function headOf(frame) {
+  const matrices = frame.facialTransformationMatrixes ?? frame.facial_transformation_matrixes ?? [];
+  if (matrices.length === 0) return [];
+  const columns = Array.isArray(matrices) ? columnsOf4x4(matrices[0]) : null;
+  const [x, y, z] = columns?.map((column) => Math.hypot(...column)) ?? [];
+  if (!(x > 0 && y > 0 && z > 0)) return null;
+  const [turnedX, turnedY, turnedZ] = columns;
+  return [['HeadYaw', 0 - Math.atan2(turnedZ[0], turnedZ[2])],
+          ['HeadPitch', Math.asin(Math.min(Math.max(-turnedZ[1] / z, -1), 1))],
+          ['HeadRoll', 0 - Math.atan2(turnedX[1] / x, turnedY[1] / y)]];
 }
 
 /**

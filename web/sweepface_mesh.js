@@ -158,7 +158,6 @@ export class FaceMesh extends Mesh {
     this.#takeInfluences();
     this.face.moveTo(goals, drive, region);
     this.advance(0);  // cuts are there at once
-    this.#moving = true;
   }
 
   push(name, velocityChange, drag) {

@@ -2,7 +2,7 @@
 import {faultOf, goesBy, KINDS, NUMBERS} from './sweepface_drives.js';
 import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isObject, parseJson, textOf} from './sweepface_text.js';
-import {isWeight, known, passed, told} from './sweepface_values.js';
+import {checkTime, isWeight, known, passed} from './sweepface_values.js';
 
 const EVENT = ['at', 'to', 'only', 'drive', 'region', ...NUMBERS];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
@@ -43,7 +43,7 @@ export function readTimeline(source, options) {
       throw fail(place, 'has a \'delay\' that leads beyond the end, so that it never plays');
     return event;
   });
-  return {seconds, loops, events: read.sort((a, b) => a.at - b.at), regions};
+  return {seconds, loops, events: read, regions};
 }
 
 function readEvent(event, file, place, failAt) {
@@ -130,8 +130,7 @@ export class TimelinePlayer {
 
   /** Lets time pass; returns whether anything is still to come or moves. */
   advance(seconds) {
-    if (!Number.isFinite(seconds))
-      throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
+    checkTime(seconds);
     const {seconds: length, loops} = this.timeline, events = this.#events, until = this.#now + passed(seconds);
     let moves = false;
     while (this.#next < loops * events.length) {

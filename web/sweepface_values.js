@@ -26,6 +26,12 @@ export function told(value) {
   return typeof value === 'object' && value && !value.toString ? kindOf(value) : String(value) || kindOf(value);
 }
 
+/** Throws if what passes is no time. */
+export function checkTime(seconds) {
+  if (!Number.isFinite(seconds))
+    throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
+}
+
 /** How much time passes: none if the clock is wrong, so that it ends no motion. */
 export const passed = (seconds) => (seconds > 0 && seconds <= 1e10 ? seconds : 0);
 

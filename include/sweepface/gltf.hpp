@@ -47,7 +47,11 @@ struct GlbOptions {
   const Tessellation* grid = nullptr;
   bool morphNormals = false;  ///< normals of the morph targets too
   bool quantize = false;      ///< KHR_mesh_quantization
-  Weights weights{};          ///< at which the face is shown; empty: as its scene says, else all 0
+  /// How long a unit is, and whether z points up instead of y, in a face that came without a scene;
+  /// a scene's units are metres, and y points up. Its node turns and scales it. 0: 1.
+  double metersPerUnit = 0;
+  bool zUp = false;
+  Weights weights{};  ///< at which the face is shown; empty: as its scene says, else all 0
   /// An animation of the weights, or null. Its keys hold every law exactly.
   const Motion* motion = nullptr;
   /// Instead of a motion: one key for each frame, with straight lines between them. Its names are
@@ -55,7 +59,7 @@ struct GlbOptions {
   const Clip* clip = nullptr;
   /// Greater than 0: writes the clip in as few keys with tangents as keep its weights within this.
   double keyTolerance = 0;
-  /// Beside a motion or a clip: how the model turns.
+  /// How the model turns, alone or beside a motion or a clip.
   const HeadTrack* head = nullptr;
   std::string animationName{};  ///< the law's, or "clip", if empty
 };

@@ -32,4 +32,8 @@ Result<std::string> formatUsd(const Rig& rig, const UsdOptions& options);
 /// The same layer and the images of its materials in one file (.usdz).
 Result<std::string> formatUsdz(const Rig& rig, const UsdOptions& options);
 
+/// A sentence that says what these leave out of the scene that came with the rig; empty if that has
+/// no other meshes, skins, animations or colours of vertices.
+std::string leftOutOfUsd(const Rig& rig);
+
 }  // namespace sweepface

@@ -236,6 +236,8 @@ class Rig:
         key_tolerance: float = 0,
         head: bool = False,
         pivot: Optional[ArrayLike] = None,
+        meters_per_unit: float = 0,
+        z_up: bool = False,
     ) -> None: ...
     def save_usd(
         self,

@@ -124,7 +124,8 @@ class Animator {
     animation_ = {
         {"name", freeName(name)}, {"channels", Json::array()}, {"samplers", Json::array()}};
     const std::vector<Index> shown = shownMeshes(scene_);
-    for (std::size_t n = 0; n < shown.size(); ++n)
+    const bool moves = options_.motion || options_.clip;
+    for (std::size_t n = 0; n < shown.size() && moves; ++n)
       if (shown[n] >= 0)
         if (auto ok = addNode(n, shown[n]); !ok) return ok;
     if (animation_["channels"].empty() && !options_.head) return nothingToMove();

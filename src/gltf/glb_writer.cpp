@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <numbers>
 #include <optional>
 
 #include "sweepface/gltf.hpp"
@@ -26,6 +27,12 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
     return fail("The clip starts before 0, where glTF knows no time.");
   if (!(options.keyTolerance >= 0 && options.keyTolerance < 1e9))
     return fail("The tolerance of keys is a number from 0.");
+  if (!(options.metersPerUnit >= 0 && options.metersPerUnit < 1e30))
+    return fail("Metres a unit are a number above 0.");
+  if (!rig.scene.empty() && (options.metersPerUnit > 0 || options.zUp))
+    return fail(
+        "The scene that the face came with is in metres, with y up; leave metres a unit and z up "
+        "out.");
   if (!io::areSingle(options.weights))
     return fail("A weight is not a number that a glTF can hold.");
   return {};
@@ -50,11 +57,11 @@ class GlbWriter {
     auto scene = rig_.scene.empty() ? makeScene() : sceneOf(rig_);
     if (!scene) return std::unexpected(scene.error());
     scene_ = std::move(*scene);
+    if (rig_.scene.empty()) stand();
     Builder builder(scene_.document);
     if (auto ok = writeMeshes(builder); !ok) return std::unexpected(ok.error());
-    if (options_.motion || options_.clip)
-      if (auto ok = addAnimation(scene_, options_, builder); !ok)
-        return std::unexpected(ok.error());
+    if (options_.motion || options_.clip || options_.head)
+      if (auto ok = animate(builder); !ok) return std::unexpected(ok.error());
     builder.finish();
     if (!builder.sound())
       return fail("The face has numbers that are too large for the single precision of glTF.");
@@ -72,6 +79,28 @@ class GlbWriter {
     }
     const std::vector<Vec3> vectors = blend(rig_, {});
     return sceneOfPolygons(rig_, sourcePositions(rig_, Tessellation(rig_.surface, 1), vectors, {}));
+  }
+
+  /// Stands a face that came without a scene in metres, with y up.
+  void stand() {
+    Json& node = scene_.document.json["nodes"][0];
+    if (const double m = options_.metersPerUnit; m > 0) node["scale"] = {m, m, m};
+    if (options_.zUp) node["rotation"] = {-std::numbers::sqrt2 / 2, 0, 0, std::numbers::sqrt2 / 2};
+  }
+
+  /// Where a point of the face is then.
+  Vec3 standing(const Vec3& p) const {
+    const double m = options_.metersPerUnit > 0 ? options_.metersPerUnit : 1;
+    return m * (options_.zUp ? Vec3{p.x, p.z, -p.y} : p);
+  }
+
+  Result<void> animate(Builder& builder) {
+    if (!options_.head) return addAnimation(scene_, options_, builder);
+    HeadTrack head = *options_.head;
+    head.pivot = standing(head.pivot);
+    GlbOptions options = options_;
+    options.head = &head;
+    return addAnimation(scene_, options, builder);
   }
 
   Result<void> writeMeshes(Builder& builder) {

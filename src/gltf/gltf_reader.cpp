@@ -3,12 +3,13 @@
 #include "sweepface/gltf.hpp"
 
 #include "gltf/accessor.hpp"
-#include "gltf/hard_normals.hpp"
 #include "gltf/left_out.hpp"
+#include "gltf/lost_normals.hpp"
 #include "gltf/mesh_rig.hpp"
 #include "gltf/same_vertices.hpp"
 #include "gltf/scene.hpp"
 #include "gltf/skins.hpp"
+#include "gltf/touching.hpp"
 #include "mesh/quads.hpp"
 #include "mesh/weld.hpp"
 
@@ -43,18 +44,20 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   const std::vector<Index> places = weld(rig);
   const auto same = gltf::sameVertices(*document, *parts, places);
   if (!same) return std::unexpected(same.error());
-  const std::string hard = gltf::hardNormals(*document, *parts, places);
+  const std::string lost = gltf::lostNormals(*document, *parts, rig, places);
   rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
   RigSource source{std::move(rig), {}, {}};
   if (hasStepsThatASkinUndoes(*document, *parts))
     source.faceWarnings.push_back(
         "The face is quantized, and its skin undoes that: sizes, distances and the tolerance are "
         "in units of the quantization, not of the scene.");
-  if (!hard.empty()) source.faceWarnings.push_back(hard);
+  if (!lost.empty()) source.faceWarnings.push_back(lost);
   if (!withScene) return source;
   source.warnings = document->warnings;
   for (auto& sentences : {parts->warnings, gltf::leftOut(*document, *parts)})
     source.warnings.insert(source.warnings.end(), sentences.begin(), sentences.end());
+  if (std::string meeting = gltf::touchingMeshes(*document, *parts, source.rig); !meeting.empty())
+    source.warnings.push_back(std::move(meeting));
   auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = gltf::formatScene(scene->glb);

@@ -8,6 +8,7 @@
 #include "sweepface/clip.hpp"
 #include "sweepface/weights.hpp"
 
+#include "io/face_transform.hpp"
 #include "io/json_text.hpp"
 
 namespace sweepface {
@@ -102,7 +103,13 @@ class ClipJsonReader {
         return failFile(fmt::format("has a time in frame {} that is not after the one before", f));
       times.push_back(*time);
       if (auto ok = readScores(frames[f], f, scores[f]); !ok) return std::unexpected(ok.error());
+      if (!scores[f].empty()) readTransform(frames[f], scores[f]);
     }
+    if (brokenTransforms_ > 0)
+      warn(
+          fmt::format("{} of {} frames have a transformation of the face that is no matrix of 4 × "
+                      "4 numbers; how the head turns there is left out.",
+                      brokenTransforms_, frames.size()));
     checkUnit(times);
     return clipOf(times, scores);
   }
@@ -182,6 +189,14 @@ class ClipJsonReader {
     }
     return {};
   }
+  void readTransform(const Json& frame, Scores& scores) {
+    const auto [angles, isBroken] = io::faceTransformOf(frame);
+    brokenTransforms_ += isBroken;
+    if (!angles) return;
+    scores["HeadYaw"] = angles->yaw;
+    scores["HeadPitch"] = angles->pitch;
+    scores["HeadRoll"] = angles->roll;
+  }
   // The categories are beside the time, or belong to the first of the faces found: an object in
   // JavaScript, the list itself in Python. A frame without a face has none.
   static const Json* categoriesOf(const Json& frame) {
@@ -199,6 +214,7 @@ class ClipJsonReader {
   std::string_view name_;
   double framesPerSecond_;
   Clip clip_;
+  std::size_t brokenTransforms_ = 0;  // frames
 };
 
 }  // namespace

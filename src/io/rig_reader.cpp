@@ -27,7 +27,7 @@ bool isMesh(const fs::path& path) {
 
 bool isGltf(const fs::path& path) {
   const std::string kind = extensionOf(path);
-  return kind == ".glb" || kind == ".gltf";
+  return kind == ".glb" || kind == ".gltf" || kind == ".vrm";  // avatars: a .glb by another name
 }
 
 std::unexpected<Error> unknownKind(const fs::path& path) {

@@ -155,11 +155,33 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<FaceRepeat>& repeat
   return mesh;
 }
 
-std::string warningOf(const OpenSeams& seams) {
+// Where vertices stand together in the neutral, this many times as wide a gap elsewhere is told of.
+constexpr double kPartedGap = 10;
+
+/// The target in which two vertices are furthest apart.
+const MeshTarget& partingTarget(const MeshRig& rig, Index one, Index other) {
+  return *std::ranges::max_element(rig.targets, {}, [&](const MeshTarget& target) {
+    return norm(target.positions[one] - target.positions[other]);
+  });
+}
+
+/// A sentence on seams that stay open, if there are any.
+std::string warningOfSeams(const MeshRig& rig, double rounding, double gap,
+                           const std::vector<Index>& first) {
+  if (const OpenSeams open = openSeams(rig, gap, gap, first); open.vertices > 0)
+    return fmt::format(
+        "The surface is open along {} within {:.2g} of others in every expression, like {} and {} "
+        "(counted from 0); merge them if it is meant to be closed there.",
+        plural(open.vertices, "vertex", "vertices"), open.widest, open.one, open.other);
+  if (rig.targets.empty()) return {};
+  const OpenSeams parted = openSeams(rig, kPartedGap * gap, rounding, first);
+  if (parted.vertices == 0) return {};
   return fmt::format(
-      "The surface is open along {} within {:.2g} of others in every expression, like {} and {} "
-      "(counted from 0); merge them if it is meant to be closed there.",
-      plural(seams.vertices, "vertex", "vertices"), seams.widest, seams.one, seams.other);
+      "The surface is open, in all expressions, along {} that stand where others do in the "
+      "neutral, but up to {:.2g} from them in an expression, like {} and {} (counted from 0) in "
+      "'{}'; move them alike there if it is meant to be closed.",
+      plural(parted.vertices, "vertex", "vertices"), parted.widest, parted.one, parted.other,
+      partingTarget(rig, parted.one, parted.other).name);
 }
 
 }  // namespace
@@ -168,13 +190,13 @@ Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding, double gap) {
   const std::vector<FaceRepeat> repeats = faceRepeats(rig.neutral.polygons);
   std::vector<Index> first = weld(rig);
   if (rounding > 0) rounding = weldRounded(rig, rounding, first);
-  const OpenSeams seams = gap > 0 ? openSeams(rig, gap, first) : OpenSeams{};
+  const std::string seams = gap > 0 ? warningOfSeams(rig, rounding, gap, first) : "";
   while (true) {
     std::vector<std::pair<Index, Index>> cut;
     auto mesh = build(rig, repeats, first, cut);
     if (!mesh) return mesh;
     mesh->rounding = rounding;
-    if (seams.vertices > 0) mesh->warnings.push_back(warningOf(seams));
+    if (!seams.empty()) mesh->warnings.push_back(seams);
     if (cut.empty()) return mesh;
     if (takeApart(first, cut)) continue;
     mesh->warnings.push_back(

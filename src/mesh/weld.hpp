@@ -16,14 +16,16 @@ std::vector<Index> weld(const MeshRig& rig);
 /// vertex from the one that `first` now names.
 double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first);
 
-/// Vertices of open edges that run along others within `within` and a twentieth of their length in
-/// all poses, as in a face whose halves were mirrored but not joined.
 struct OpenSeams {
   Index vertices = 0;          ///< how many merging would remove
   Index one = -1, other = -1;  ///< the first two that it would join
   double widest = 0;
 };
-OpenSeams openSeams(const MeshRig& rig, double within, const std::vector<Index>& first);
+/// Vertices of open edges that run along others within `within` and a twentieth of their length in
+/// all poses, and within `inNeutral` in the neutral: as in a face whose halves were mirrored but
+/// not joined, or with targets that moved one side of a seam alone.
+OpenSeams openSeams(const MeshRig& rig, double within, double inNeutral,
+                    const std::vector<Index>& first);
 
 /// Separate sheets that merely touch must not be welded: they would meet in edges of three or more
 /// faces. Undoes the welds at the ends of such edges; false if there were none.

@@ -27,12 +27,14 @@ std::vector<double> shortestEdges(const PolygonMesh& mesh, double least, double 
 // The largest rounding, and the largest gap between edges meant as one, as shares of edge lengths.
 constexpr double kRoundingOfEdges = 1e-3, kGapOfEdges = 0.05;
 
-/// Finds vertices that are near each other in all poses: at most `within` apart, and at most a
-/// share of any edge of either that is longer than `within`.
+/// Finds vertices that are near each other in all poses: at most `within` apart, at most a share of
+/// any edge of either that is longer than `within`, and at most `inNeutral` in the neutral.
 class Neighbours {
  public:
-  Neighbours(const MeshRig& rig, double within, double ofEdges)
-      : rig_(rig), allowed_(shortestEdges(rig.neutral, within, within / ofEdges)) {
+  Neighbours(const MeshRig& rig, double within, double ofEdges, double inNeutral)
+      : rig_(rig),
+        allowed_(shortestEdges(rig.neutral, within, within / ofEdges)),
+        inNeutral_(inNeutral) {
     for (double& distance : allowed_) distance *= ofEdges;
   }
 
@@ -46,7 +48,8 @@ class Neighbours {
   bool areNear(Index a, Index b) const {
     const double most = std::min(allowed_[a], allowed_[b]);
     const std::vector<Vec3>& neutral = rig_.neutral.positions;
-    return norm(neutral[a] - neutral[b]) <= most && apart(a, b) <= most;  // few get this far
+    return norm(neutral[a] - neutral[b]) <= std::min(most, inNeutral_) &&
+           apart(a, b) <= most;  // few get this far
   }
 
   /// Groups of `vertices` that are near each other, directly or through others.
@@ -99,6 +102,7 @@ class Neighbours {
 
   const MeshRig& rig_;
   std::vector<double> allowed_;  // [vertices]
+  double inNeutral_;
 };
 
 struct OpenEdge {
@@ -193,7 +197,7 @@ UnionFind setsOf(const std::vector<Index>& first) {
 }  // namespace
 
 double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
-  const Neighbours neighbours(rig, within, kRoundingOfEdges);
+  const Neighbours neighbours(rig, within, kRoundingOfEdges, within);
   UnionFind sets = setsOf(first);
   closePoints(rig.neutral.polygons, neighbours, sets);
   closeSlits(rig.neutral.polygons, neighbours, sets,
@@ -205,8 +209,9 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
   return furthest;
 }
 
-OpenSeams openSeams(const MeshRig& rig, double within, const std::vector<Index>& first) {
-  const Neighbours neighbours(rig, within, kGapOfEdges);
+OpenSeams openSeams(const MeshRig& rig, double within, double inNeutral,
+                    const std::vector<Index>& first) {
+  const Neighbours neighbours(rig, within, kGapOfEdges, inNeutral);
   UnionFind sets = setsOf(first), narrow = sets;
   eachEdge(rig.neutral.polygons, [&](Index a, Index b, Index) {
     if (norm(rig.neutral.positions[a] - rig.neutral.positions[b]) <= within) narrow.join(a, b);

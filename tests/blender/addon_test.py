@@ -66,6 +66,12 @@ class InBlender(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
+    def write(self, name, text):
+        """Writes a file into the test's folder; returns its path."""
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
     def sheet(self):
         """A sheet of 6 x 6 quads, standing upright, with shape keys; the active object."""
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=6, rotation=(1.5, 0.2, 0.1), scale=(2, 3, 1))
@@ -92,6 +98,14 @@ class InBlender(unittest.TestCase):
         shown = self.sheet()
         self.saved(shown, pack=False)
         return shown
+
+    def told(self, kind, **properties):
+        """Runs an operator as the user starts it; returns what it reports."""
+        if kind is addon.PlayClip:
+            properties = {"smooth": False, "combine": False, "names": ""} | properties
+        job = watched(kind, **properties)
+        job.wait()
+        return job.reports
 
     def assert_moves(self, names):
         """Checks that the active object has these targets, and that they move."""
@@ -128,6 +142,8 @@ class AddOn(InBlender):
             for name, file in (("Basis", "neutral"), ("jawOpen", "expressions/jawOpen"), ("smile", "expressions/smile")):
                 found = addon.places_in(os.path.join(meshes, file + ".obj"))
                 self.assert_near(found, self.expected(shown, [p.co for p in keys[name].data]))
+            info = json.loads(tool("info", self.path("face.sweep"), "--json"))
+            self.assertAlmostEqual(info["tolerance"], TOLERANCE, places=8)
 
     def test_saves_the_limit_of_a_cage(self):
         shown = self.sheet()
@@ -147,6 +163,36 @@ class AddOn(InBlender):
         tree.balance()
         self.assertLessEqual(max(tree.find(place)[2] for place in found), 2 * TOLERANCE)
         self.assertEqual(len({tree.find(place)[1] for place in found}), len(places))
+
+    def test_a_cage_has_the_levels_of_its_modifier_and_two_at_most(self):
+        shown = self.sheet()
+        modifier = shown.modifiers.new(name="Smooth", type="SUBSURF")
+        modifier.levels = 3
+        self.assertEqual(addon.levels_of(shown), 2)
+        modifier.subdivision_type = "SIMPLE"
+        self.assertEqual(addon.levels_of(shown), 0)
+        modifier.subdivision_type, modifier.show_viewport = "CATMULL_CLARK", False
+        self.assertEqual(addon.levels_of(shown), 0)
+
+    def test_saves_the_texture_coordinates_that_are_active(self):
+        shown = self.sheet()
+        shown.data.uv_layers.new(name="other")
+        shown.data.uv_layers.active_index = 1
+        for place in shown.data.uv_layers[1].data:
+            place.uv = (0.25, 0.75)
+        self.saved(shown, pack=False)
+        bpy.ops.import_scene.sweep(filepath=self.path("face.sweep"))
+        layer = bpy.context.active_object.data.uv_layers[0]
+        self.assert_near([place.uv for place in layer.data], [(0.25, 0.75)] * len(layer.data), 1e-5)
+
+    def test_names_of_materials_continue_no_line(self):
+        shown = self.sheet()
+        shown.data.materials[1].name = "lips\\"
+        self.saved(shown, pack=False)
+        bpy.ops.import_scene.sweep(filepath=self.path("face.sweep"))
+        opened = bpy.context.active_object.data
+        self.assertEqual([material.name for material in opened.materials], ["skin", "lips"])
+        self.assertEqual(len(opened.polygons), 36)
 
     def test_saves_what_a_key_adds_to_another_and_where_its_group_lets_it(self):
         shown = self.sheet()
@@ -174,9 +220,12 @@ class AddOn(InBlender):
     def test_opens_what_it_saved(self):
         shown = self.sheet()
         meshes = self.saved(shown, pack=False)
+        shown.select_set(True)
         self.assertEqual(bpy.ops.import_scene.sweep(filepath=self.path("face.sweep")), {"FINISHED"})
         opened = bpy.context.active_object
         self.assertIsNot(opened, shown)
+        self.assertEqual(bpy.context.selected_objects, [opened])
+        self.assertTrue(all(polygon.use_smooth for polygon in opened.data.polygons))
         self.assertEqual([key.name for key in opened.data.shape_keys.key_blocks], ["Basis", "jawOpen", "smile"])
         self.assertEqual([m.name for m in opened.data.materials], ["skin", "lips"])
         self.assertEqual([p.material_index for p in opened.data.polygons], [p.material_index for p in shown.data.polygons])
@@ -197,10 +246,22 @@ class AddOn(InBlender):
         self.assertEqual(len(opened.data.polygons), 9 * 36)
         self.assertEqual(len(opened.data.shape_keys.key_blocks), 3)
 
+    def test_a_face_that_is_opened_in_edit_mode_becomes_active(self):
+        self.face()
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.import_scene.sweep(filepath=self.path("face.sweep"))
+        self.assertEqual((bpy.context.active_object.name, bpy.context.mode), ("face", "OBJECT"))
+
+    def test_only_meshes_are_saved_and_only_faces_move(self):
+        bpy.ops.object.empty_add()
+        self.assertFalse(bpy.ops.export_scene.sweep.poll())
+        self.sheet()
+        self.assertTrue(bpy.ops.export_scene.sweep.poll())
+        self.assertFalse(bpy.ops.object.sweepface_move.poll())
+
     def test_says_what_is_wrong(self):
         shown = self.sheet()
-        with open(self.path("bad.sweep"), "w", encoding="utf-8") as file:
-            file.write("GIF")
+        self.write("bad.sweep", "GIF")
         self.assert_refused(lambda: bpy.ops.import_scene.sweep(filepath=self.path("bad.sweep")), "does not begin with")
         save = lambda: bpy.ops.export_scene.sweep(filepath=self.path("face.sweep"))
         key = shown.data.shape_keys.key_blocks["smile"]
@@ -238,6 +299,15 @@ class AddOn(InBlender):
         scene.frame_set(70)
         self.assert_refused(lambda: bpy.ops.object.sweepface_move(seconds=0.5), "in this pose already")
 
+    def test_frames_may_be_of_any_length(self):
+        shown = self.face()
+        scene, key = bpy.context.scene, shown.data.shape_keys.key_blocks["smile"]
+        scene.render.fps, scene.render.fps_base = 24, 2
+        scene.frame_set(24)
+        key.value = 1
+        bpy.ops.object.sweepface_move(law="linear", seconds=1)
+        self.assertAlmostEqual(addon.curve_of(key).evaluate(18), 0.5, places=5)
+
     def test_what_was_before_and_behind_a_motion_stays(self):
         shown = self.face()
         scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
@@ -254,6 +324,21 @@ class AddOn(InBlender):
         self.assertAlmostEqual(curve.evaluate(14), before[8] * 0.75, places=4)
         self.assertAlmostEqual(curve.evaluate(20), 0, places=5)
         self.assertAlmostEqual(curve.evaluate(40), 1, places=5)
+
+    def test_a_straight_line_behind_the_last_key_stays_until_the_motion(self):
+        key = self.face().data.shape_keys.key_blocks["jawOpen"]
+        for frame, value in ((0, 0), (10, 0.2)):
+            key.value = value
+            key.keyframe_insert("value", frame=frame)
+        curve = addon.curve_of(key)
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+        curve.extrapolation = "LINEAR"
+        bpy.context.scene.frame_set(44)
+        before = [curve.evaluate(frame) for frame in range(21)]
+        key.value = 0
+        bpy.ops.object.sweepface_move(law="linear", seconds=1)  # from frame 20 on
+        self.assert_near([curve.evaluate(frame) for frame in range(21)], before, 1e-4)
 
     def test_keys_set_by_hand_stay_as_they_were(self):
         shown = self.face()
@@ -281,8 +366,7 @@ class AddOn(InBlender):
 
     def test_what_was_before_stays_beside_and_without_keys_there(self):
         key = self.face().data.shape_keys.key_blocks["jawOpen"]
-        with open(self.path("take.csv"), "w", encoding="utf-8") as file:
-            file.write("Timecode,JawOpen\n0,0\n1,0.5\n")
+        self.write("take.csv", "Timecode,JawOpen\n0,0\n1,0.5\n")
         for hand, subframe in ((10, 0.02), (10, 0.015), (60, 0)):  # a key right before the clip, or far behind it
             key.id_data.animation_data_clear()
             key.value = 0.9
@@ -339,21 +423,72 @@ class AddOn(InBlender):
         shown.shape_key_add(name="wink", from_mix=False).value = 0.5
         self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "has no targets for wink; save the face again")
 
+    def test_names_that_no_list_of_weights_can_have_are_told(self):
+        shown = self.sheet()
+        key = shown.data.shape_keys.key_blocks["smile"]
+        key.name = "a, b"
+        self.saved(shown, pack=False)
+        bpy.context.scene.frame_set(24)
+        key.value = 1
+        self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "'a, b' has a comma or a blank at an end; rename it")
+
     def test_curves_that_cannot_be_changed_are_told(self):
         shown = self.face()
         scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
-        keys["jawOpen"].keyframe_insert("value", frame=0)
-        addon.curve_of(keys["jawOpen"]).lock = True
+        keys["jawOpen"].keyframe_insert("value", frame=0, group="mouth")
+        curve = addon.curve_of(keys["jawOpen"])
         scene.frame_set(24)
         keys["smile"].value = 1
-        self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "The F-curve of jawOpen is locked")
-        addon.curve_of(keys["jawOpen"]).lock = False
-        addon.curve_of(keys["jawOpen"]).modifiers.new("NOISE")
+        for locked in (curve, curve.group):
+            locked.lock = True
+            self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "The F-curve of jawOpen is locked")
+            locked.lock = False
+        curve.modifiers.new("NOISE")
         self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "The F-curve of jawOpen has modifiers")
         animation = shown.data.shape_keys.animation_data
         animation.nla_tracks.new().strips.new("old", 0, animation.action)
         self.assert_refused(lambda: bpy.ops.object.sweepface_clip(filepath="take.csv"), "are moved by NLA strips")
         self.assertIsNone(addon.curve_of(keys["smile"]))
+
+    def test_strips_that_are_muted_are_in_nobodys_way(self):
+        shown = self.face()
+        keys = shown.data.shape_keys.key_blocks
+        keys["jawOpen"].keyframe_insert("value", frame=0)
+        animation = shown.data.shape_keys.animation_data
+        track = animation.nla_tracks.new()
+        track.strips.new("old", 0, animation.action)
+        track.mute = True
+        bpy.context.scene.frame_set(24)
+        keys["smile"].value = 1
+        bpy.ops.object.sweepface_move(law="linear", seconds=1)
+        self.assertAlmostEqual(addon.curve_of(keys["smile"]).evaluate(12), 0.5, places=5)
+
+    def test_what_is_linked_from_another_file_is_told(self):
+        self.face()
+        bpy.ops.wm.save_as_mainfile(filepath=self.path("face.blend"))
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.preferences.addon_enable(module=addon.__name__)
+        with bpy.data.libraries.load(self.path("face.blend"), link=True) as (there, here):
+            here.objects = there.objects
+        [shown] = here.objects
+        bpy.context.collection.objects.link(shown)
+        bpy.context.view_layer.objects.active = shown
+        self.assert_refused(lambda: bpy.ops.object.sweepface_clip(filepath="take.csv"), "Grid is linked from another file; make it local")
+
+    def test_what_moves_otherwise_than_by_keys_is_told(self):
+        shown = self.face()
+        keys = shown.data.shape_keys.key_blocks
+        keys["smile"].driver_add("value").driver.expression = "0.25"
+        take = self.write("take.csv", "Timecode,JawOpen,smile\n0,0,0\n1,0.5,1\n")
+        told = [("WARNING", "Drivers move the shape keys smile, whatever their keys say.")]
+        self.assertEqual(self.told(addon.PlayClip, filepath=take), told)
+        shown.shape_key_remove(keys["jawOpen"])
+        self.assertEqual(self.told(addon.PlayClip, filepath=take), [("WARNING", "There are no shape keys jawOpen."), *told])
+
+    def test_advice_that_nobody_can_follow_is_not_told(self):
+        self.face()
+        take = self.write("take.csv", "Timecode,JawOpen,smile,HeadYaw\n0,0,0,0\n1,0.5,1,0.3\n")
+        self.assertEqual(self.told(addon.PlayClip, filepath=take), [])
 
     def test_faces_of_several_meshes_and_animations_of_their_own_move(self):
         for name in ("head", "teeth"):
@@ -393,6 +528,13 @@ class AddOn(InBlender):
             self.assertAlmostEqual(smile.evaluate(frame), float(frame >= 24), delta=0.01, msg=frame)
             self.assertAlmostEqual(jaw.evaluate(frame), max(0, (frame - 36) / 12) ** 2, delta=0.005, msg=frame)
 
+    def test_a_timeline_of_regions_is_told(self):
+        self.face()
+        line = self.write("line.json", json.dumps(
+            {"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}, "region": "a"}],
+             "regions": [{"name": "a", "points": [[0, 0, 0]], "over": "space", "whole": 0.5, "fade": 1}]}))
+        self.assert_refused(lambda: bpy.ops.object.sweepface_clip(filepath=line), "cannot show the regions of a timeline")
+
     def test_faces_with_a_corner_twice_can_be_edited(self):
         with open(self.path("odd.obj"), "w", encoding="utf-8") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -429,6 +571,42 @@ class AddOn(InBlender):
             for frame in (60, 90):
                 self.assertAlmostEqual(addon.curve_of(key).evaluate(frame), 0.8, places=5)
 
+    def test_a_spring_that_is_still_far_away_is_told(self):
+        key = self.face().data.shape_keys.key_blocks["smile"]
+        bpy.context.scene.frame_set(24)
+        key.value = 1
+        [(_, text)] = self.told(addon.MoveToPose, law="spring", seconds=0.3, frequency=1, damping=0.1, pose="")
+        self.assertRegex(text, "^The spring is .* away from smile when the time is over; give it more seconds")
+
+    def test_a_bounce_keeps_the_speed_that_it_is_told(self):
+        key = self.face().data.shape_keys.key_blocks["smile"]
+        bpy.context.scene.frame_set(48)
+        key.value = 1
+        bpy.ops.object.sweepface_move(law="bounce", seconds=1, restitution=0.8)
+        # It hits after 1/9 of the time, and keeps 0.8 ** 2 of the height.
+        self.assertAlmostEqual(addon.curve_of(key).evaluate(24 + 24 / 9 * 1.8), 1 - 0.8**2, delta=0.01)
+
+    def test_a_clip_is_smoothed_and_combined_if_it_is_asked_for(self):
+        shown = self.sheet()
+        shown.shape_key_add(name="jawOpen_smile", from_mix=False).data[24].co.z += 0.5
+        self.saved(shown, pack=False)
+        rows = "".join(f"{k / 24:.6f},{0.5 + 0.05 * (-1) ** k},0.5\n" for k in range(25))
+        take = self.write("take.csv", "Timecode,jawOpen,smile\n" + rows)
+        keys = shown.data.shape_keys.key_blocks
+        for is_asked in (False, True):
+            bpy.ops.object.sweepface_clip(filepath=take, smooth=is_asked, combine=is_asked)
+            curve, both = (addon.curve_of(keys[name]) for name in ("jawOpen", "jawOpen_smile"))
+            middle = bpy.context.scene.frame_current + 12
+            self.assertEqual(abs(curve.evaluate(middle) - curve.evaluate(middle + 1)) < 0.06, is_asked)
+            self.assertEqual(bool(both), is_asked)
+        self.assertAlmostEqual(both.evaluate(middle), 0.25, delta=0.03)
+
+    def test_a_slider_without_keys_follows_a_clip_in_which_it_rests(self):
+        key = self.face().data.shape_keys.key_blocks["smile"]
+        key.value = 0.5
+        bpy.ops.object.sweepface_clip(filepath=self.write("take.csv", "Timecode,JawOpen,smile\n0,0,0\n1,0.5,0\n"))
+        self.assertEqual(addon.curve_of(key).evaluate(5), 0)
+
     def test_plays_a_clip_instead_of_what_was_there(self):
         shown = self.face()
         rows = [[f"{k / 24:.6f}", 2, 0.1 * (k % 7), -0.05 * k] for k in range(25)]
@@ -443,8 +621,7 @@ class AddOn(InBlender):
             self.assertAlmostEqual(addon.curve_of(blocks["jawOpen"]).evaluate(10 + k), jaw, delta=0.003)
             self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(10 + k), smile, delta=0.003)
         self.assertEqual(scene.frame_end, 34)
-        with open(self.path("names.json"), "w", encoding="utf-8") as file:
-            file.write('{"jawOpen": "smile", "smile": null}')
+        self.write("names.json", '{"jawOpen": "smile", "smile": null}')
         scene.frame_set(50)
         bpy.ops.object.sweepface_clip(filepath=self.path("take.csv"), names=self.path("names.json"))
         self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(56), 0.6, delta=0.003)
@@ -485,8 +662,7 @@ class WhileTheToolRuns(InBlender):
 
     def export(self, **options):
         """Begins to save the active object, in place of another file."""
-        with open(self.path("face.sweep"), "w", encoding="utf-8") as file:
-            file.write("old")
+        self.write("face.sweep", "old")
         options = {"pack": False, "tolerance": 0, "subdivide": 0} | options
         return watched(addon.ExportSweep, filepath=self.path("face.sweep"), **options)
 
@@ -539,8 +715,7 @@ class WhileTheToolRuns(InBlender):
 
     def test_a_clip_lengthens_the_scene_where_it_began(self):
         self.face()
-        with open(self.path("take.csv"), "w", encoding="utf-8") as file:
-            file.write("Timecode,JawOpen\n0,0\n1,0.5\n")
+        self.write("take.csv", "Timecode,JawOpen\n0,0\n1,0.5\n")
         scene = bpy.context.scene
         scene.frame_end = 5
         scene.frame_set(10)

@@ -8,6 +8,7 @@
 #include "sweepface/sweepface_clips.h"
 #include "sweepface/timeline.hpp"
 
+#include "capi/refuses.hpp"
 #include "codec/rigs.hpp"
 #include "gltf/glb.hpp"
 
@@ -50,9 +51,10 @@ class Clips : public ::testing::Test {
     EXPECT_EQ(sweepface_clip_weights(clip, seconds, weights.data(), count), SWEEPFACE_OK);
     return weights;
   }
-  bool refuses(std::string_view text, std::string_view part) {
-    return read(text) == SWEEPFACE_BAD_DATA && clip == nullptr &&
-           std::string_view(sweepface_message()).find(part) != std::string_view::npos;
+  ::testing::AssertionResult refusesToRead(std::string_view text, std::string_view part) {
+    const sweepface_status status = read(text);
+    EXPECT_EQ(clip, nullptr);
+    return refuses(status, part, SWEEPFACE_BAD_DATA);
   }
 
   Rig rig;
@@ -115,7 +117,7 @@ TEST_F(Clips, AreOfManyKinds) {
   EXPECT_STREQ(sweepface_clip_warning(clip, 0),
                "take: 1 of 3 frames found no face; weights go on from the frames around them.");
   EXPECT_EQ(sweepface_clip_warning(clip, 1), nullptr);
-  EXPECT_TRUE(refuses("glTF\x02", "take"));
+  EXPECT_TRUE(refusesToRead("glTF\x02", "take"));
 }
 
 TEST_F(Clips, OfNumberedFramesGoAtTheRateOfTheirOptions) {
@@ -138,7 +140,7 @@ TEST_F(Clips, AreToldApartBehindAByteOrderMark) {
   ASSERT_EQ(read(std::string(mark) + " " + capture.substr(0, 1) + capture.substr(14)), SWEEPFACE_OK)
       << sweepface_message();
   EXPECT_EQ(at(0.25)[0], 0.5);
-  EXPECT_TRUE(refuses(std::string(mark) + capture, "unknown key"));
+  EXPECT_TRUE(refusesToRead(std::string(mark) + capture, "unknown key"));
 }
 
 TEST_F(Clips, ThatSpeakOfEventsAreNoTimelines) {
@@ -158,8 +160,8 @@ TEST_F(Clips, OfAllRegionsHoldNoMoreThanOneMay) {
   ASSERT_EQ(sweepface_rig_divide_by(handle, regions.data(), regions.size(), "scene"), SWEEPFACE_OK)
       << sweepface_message();
   for (int k = 0; k < 39; ++k) goals += ",\"n" + std::to_string(k) + "\": 1";
-  EXPECT_TRUE(refuses(R"({"seconds": 1000, "events": [{"at": 0, "to": {)" + goals + R"(}}]})",
-                      "take: it is too long for 9 regions"));
+  EXPECT_TRUE(refusesToRead(R"({"seconds": 1000, "events": [{"at": 0, "to": {)" + goals + R"(}}]})",
+                            "take: it is too long for 9 regions"));
 }
 
 TEST_F(Clips, LoseTheirNoise) {
@@ -200,7 +202,8 @@ TEST_F(Clips, OfAGlbAreChosenByTheirNames) {
 }
 
 TEST_F(Clips, OfTimelinesGoByTheirRegions) {
-  EXPECT_TRUE(refuses(kTimeline, "for a region 'part', but the face is not divided into regions."));
+  EXPECT_TRUE(
+      refusesToRead(kTimeline, "for a region 'part', but the face is not divided into regions."));
   std::string everywhere(kTimeline);
   everywhere.erase(everywhere.find(R"(, "region": "part")"), 18);
   ASSERT_EQ(read(everywhere), SWEEPFACE_OK) << sweepface_message();
@@ -292,11 +295,11 @@ TEST_F(Clips, MayTurnNothingButTheHead) {
 }
 
 TEST_F(Clips, AreRefusedWithASentence) {
-  EXPECT_TRUE(refuses("", "take is empty"));
-  EXPECT_TRUE(refuses("Timecode,Open\n0,x\n", "take, line 2: 'x' in column 2"));
-  EXPECT_TRUE(refuses("{", "this is not JSON"));
-  EXPECT_TRUE(refuses("Timecode,Beard\n0,1\n", "none of its 1 names is a target"));
-  EXPECT_TRUE(refuses("Timecode,Beard,HeadYaw\n0,1,1\n", "none of its 2 names is a target"));
+  EXPECT_TRUE(refusesToRead("", "take is empty"));
+  EXPECT_TRUE(refusesToRead("Timecode,Open\n0,x\n", "take, line 2: 'x' in column 2"));
+  EXPECT_TRUE(refusesToRead("{", "this is not JSON"));
+  EXPECT_TRUE(refusesToRead("Timecode,Beard\n0,1\n", "none of its 1 names is a target"));
+  EXPECT_TRUE(refusesToRead("Timecode,Beard,HeadYaw\n0,1,1\n", "none of its 2 names is a target"));
   for (const double rate : {-1.0, std::nan(""), HUGE_VAL}) {
     auto options = sweepface_clip_usual_options();
     options.frames_per_second = rate;

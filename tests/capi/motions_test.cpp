@@ -1,13 +1,15 @@
 #include <gtest/gtest.h>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "sweepface/live_motion.hpp"
 #include "sweepface/sweepface.h"
 
+#include "capi/refuses.hpp"
+
 namespace sweepface {
 namespace {
+
+using namespace testing;
 
 class Motions : public ::testing::Test {
  protected:
@@ -30,11 +32,6 @@ class Motions : public ::testing::Test {
 
   sweepface_motion* motion = nullptr;
 };
-
-bool refuses(sweepface_status status, std::string_view part) {
-  return status == SWEEPFACE_BAD_ARGUMENT &&
-         std::string_view(sweepface_message()).find(part) != std::string_view::npos;
-}
 
 TEST_F(Motions, GoTheWayOfEveryDrive) {
   for (int32_t kind = SWEEPFACE_CUT; kind <= SWEEPFACE_BOUNCE; ++kind) {
@@ -125,7 +122,8 @@ TEST_F(Motions, RefuseAndChangeNothing) {
   odd.seconds = -1;
   EXPECT_TRUE(refuses(sweepface_motion_move_to(motion, 0, 1, &odd), "."));
   odd.kind = 6;
-  EXPECT_TRUE(refuses(sweepface_motion_move_to(motion, 0, 1, &odd), "no drive of kind 6"));
+  EXPECT_TRUE(refuses(sweepface_motion_move_to(motion, 0, 1, &odd),
+                      "There is no drive of kind 6; kinds are 0 to 5."));
   EXPECT_TRUE(refuses(sweepface_motion_move_all(motion, goals, 2, &odd), "no drive of kind 6"));
   EXPECT_TRUE(refuses(sweepface_motion_move_to(motion, 2, 1, nullptr), "There is no weight 2"));
   EXPECT_TRUE(refuses(sweepface_motion_move_all(motion, goals, 3, nullptr), "3 goals for 2"));

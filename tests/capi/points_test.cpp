@@ -1,16 +1,19 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/nearest.hpp"
 #include "sweepface/sweepface.h"
+#include "sweepface/sweepface_head.h"
 #include "sweepface/sweepface_regions.h"
 
+#include "capi/refuses.hpp"
 #include "codec/rigs.hpp"
 #include "faces.hpp"
 
@@ -111,30 +114,52 @@ TEST_F(MeshesOfPoints, KnowTheSourceVerticesAroundThem) {
 }
 
 TEST_F(MeshesOfPoints, MoveByRegions) {
-  std::vector<double> left(sweepface_rig_node_count(handle));
-  left[0] = 1;
-  const char* name = "left";
-  ASSERT_EQ(sweepface_rig_divide(handle, &name, left.data(), 1), SWEEPFACE_OK);
+  const std::size_t nodes = sweepface_rig_node_count(handle);
+  std::vector<double> shares(2 * nodes);
+  std::fill_n(shares.begin(), nodes, 1);
+  const char* const names[] = {"all", "none"};
+  ASSERT_EQ(sweepface_rig_divide(handle, names, shares.data(), 2), SWEEPFACE_OK);
   make();
   const auto still = positions();
   ASSERT_EQ(sweepface_face_set_region_weights(face, 1, weights, 2), SWEEPFACE_OK);
-  const auto one = positions();
+  EXPECT_EQ(positions(), still);
+  ASSERT_EQ(sweepface_face_set_region_weights(face, 0, weights, 2), SWEEPFACE_OK);
+  const auto moved = positions();
+  EXPECT_NE(moved, still);
+  ASSERT_EQ(sweepface_face_set_region_weights(face, 1, std::array{0.0, 0.0}.data(), 2),
+            SWEEPFACE_OK);
+  EXPECT_EQ(positions(), moved);
   ASSERT_EQ(sweepface_face_set_weights(face, weights, 2), SWEEPFACE_OK);
-  EXPECT_NE(still, one);
-  EXPECT_NE(positions(), one);
+  EXPECT_EQ(positions(), moved);
+}
+
+/// A face away from the origin that has more quads than a mesh may have vertices.
+sweepface_rig* loadTooLarge() {
+  Rig plain;
+  plain.surface = Surface::make(onePatch(4097, 4097)).value();
+  plain.neutral.assign(plain.surface.storedCount(), {1, 2, 3});
+  const std::string bytes = encode(plain);
+  sweepface_rig* large = nullptr;
+  EXPECT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "large", &large), SWEEPFACE_OK)
+      << sweepface_message();
+  return large;
 }
 
 TEST_F(MeshesOfPoints, AreRefusedOnFacesOfTooManyQuads) {
-  Rig plain;
-  plain.surface = Surface::make(onePatch(4097, 4097)).value();
-  plain.neutral.resize(plain.surface.storedCount());
-  const std::string bytes = encode(plain);
-  sweepface_rig* large = nullptr;
-  ASSERT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "large", &large), SWEEPFACE_OK)
-      << sweepface_message();
-  EXPECT_EQ(sweepface_mesh_create_at(large, points.data(), kCount, &mesh), SWEEPFACE_BAD_ARGUMENT);
-  EXPECT_NE(std::string_view(sweepface_message()).find("more than 16777216 quads"),
-            std::string_view::npos);
+  sweepface_rig* const large = loadTooLarge();
+  EXPECT_TRUE(refuses(sweepface_mesh_create_at(large, points.data(), kCount, &mesh),
+                      "more than 16777216 quads"));
+  sweepface_rig_free(large);
+}
+
+TEST(FacesOfTooManyQuads, HaveNoBoxAndNoEyes) {
+  sweepface_rig* const large = loadTooLarge();
+  double low[] = {7, 7, 7}, high[] = {7, 7, 7};
+  sweepface_rig_box(large, low, high);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(low[k] == 0 && high[k] == 0) << k;
+  uint32_t eyes = 0;
+  EXPECT_TRUE(refuses(sweepface_rig_turn_eyes(large, &eyes),
+                      "The face has too many vertices to look for eyes."));
   sweepface_rig_free(large);
 }
 

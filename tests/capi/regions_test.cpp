@@ -5,6 +5,7 @@
 #include "sweepface/regional_motion.hpp"
 #include "sweepface/sweepface_regions.h"
 
+#include "capi/refuses.hpp"
 #include "codec/rigs.hpp"
 
 namespace sweepface {
@@ -45,10 +46,6 @@ class DividedFaces : public ::testing::Test {
     EXPECT_EQ(sweepface_face_evaluate(of, out.size() / 3, {out.data(), 0}, {nullptr, 0}),
               SWEEPFACE_OK);
     return out;
-  }
-  static bool refuses(sweepface_status status, std::string_view part) {
-    return status == SWEEPFACE_BAD_ARGUMENT &&
-           std::string_view(sweepface_message()).find(part) != std::string_view::npos;
   }
 
   Rig rig;
@@ -202,6 +199,8 @@ TEST_F(DividedFaces, RefuseAndChangeNothing) {
   sweepface_motion* motion = nullptr;
   EXPECT_TRUE(refuses(sweepface_motion_create_regions(rest, 1, &heavy, 1, &motion), "10000"));
   EXPECT_TRUE(refuses(sweepface_motion_create_regions(rest, 1, &heavy, 0, &motion), "1 to 32"));
+  EXPECT_TRUE(refuses(sweepface_motion_create_regions(rest, 1, &heavy, SIZE_MAX, &motion),
+                      "A motion has 1 to 32 regions."));
   EXPECT_EQ(motion, nullptr);
   ASSERT_EQ(sweepface_motion_create(rest, 1, &motion), SWEEPFACE_OK);
   EXPECT_TRUE(refuses(sweepface_motion_move_in(motion, 1, 0, 1, nullptr), "no region 1"));

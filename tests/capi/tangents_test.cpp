@@ -9,6 +9,7 @@
 #include "sweepface/evaluator.hpp"
 #include "sweepface/sweepface.h"
 
+#include "capi/refuses.hpp"
 #include "codec/packed.hpp"
 #include "eval/textured.hpp"
 
@@ -42,11 +43,6 @@ class FacesWithTangents : public ::testing::Test {
     ASSERT_EQ(sweepface_mesh_create(handle, lod, &mesh), SWEEPFACE_OK) << sweepface_message();
     ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
     count = sweepface_mesh_vertex_count(mesh);
-  }
-
-  static bool refuses(sweepface_status status, std::string_view part) {
-    return status == SWEEPFACE_BAD_ARGUMENT &&
-           std::string_view(sweepface_message()).find(part) != std::string_view::npos;
   }
 
   struct Written {

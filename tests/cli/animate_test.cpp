@@ -179,8 +179,11 @@ TEST_F(Animate, LeavesOnlyWholeFramesOnInterrupt) {
     kill(child, signal);
     EXPECT_EQ(codeOf(child), 130);
     EXPECT_TRUE(contents(folder / ".err").starts_with("sweepface: Interrupted after "));
-    for (const auto& file : std::filesystem::directory_iterator(frames))
+    const std::size_t faces = mesh("frames/frame_0000.obj").polygons.faceStart.size();
+    for (const auto& file : std::filesystem::directory_iterator(frames)) {
       EXPECT_EQ(file.path().extension(), ".obj") << file.path();
+      EXPECT_EQ(mesh(file.path().string()).polygons.faceStart.size(), faces) << file.path();
+    }
   }
 }
 

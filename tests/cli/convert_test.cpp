@@ -137,9 +137,24 @@ TEST_F(Convert, MakesTheSameFileWithAnyNumberOfThreads) {
   EXPECT_EQ(contents(folder / "face.sweep"), one);
 }
 
+// A trough with walls that shape parameters fit.
 TEST_F(Convert, LeavesShapeParametersOutIfAsked) {
-  convertRig("--no-shapes");
-  EXPECT_EQ(nlohmann::json::parse(run("info face.sweep --json").out)["shapedRibbons"], 0);
+  std::string trough;
+  for (int j = 0; j <= 4; ++j)
+    for (int i = 0; i <= 8; ++i)
+      trough += fmt::format("v {} {} {}\n", i, j,
+                            1 - std::cosh(14.1 * (i / 8.0 - 0.5)) / std::cosh(7.05));
+  for (int a = 1; a < 36; ++a)
+    if (a % 9 != 0) trough += fmt::format("f {} {} {} {}\n", a, a + 1, a + 10, a + 9);
+  folder.file("trough.obj", trough);
+  const auto shapedRibbons = [&](const std::string& more) {
+    const Outcome made = run(
+        "convert trough.obj -o trough.sweep --tolerance 0.02 --normal-limit 180 --quiet " + more);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return nlohmann::json::parse(run("info trough.sweep --json").out)["shapedRibbons"].get<int>();
+  };
+  EXPECT_GT(shapedRibbons(""), 0);
+  EXPECT_EQ(shapedRibbons("--no-shapes"), 0);
 }
 
 TEST_F(Convert, IsSilentIfAskedAndLeavesNothingElse) {
@@ -162,6 +177,16 @@ TEST_F(Convert, RefusesWrongNumbers) {
   EXPECT_TRUE(fails(command + "--normal-limit 181", "at most 180", 2));
   EXPECT_TRUE(fails(command + "--threads 0", "--threads: This must be a whole number from 1", 2));
   EXPECT_FALSE(std::filesystem::exists(folder / "face.sweep"));
+}
+
+TEST_F(Convert, WarnsOfMovementWithinTheTolerance) {
+  folder.file("neutral.obj", sheet());
+  folder.file("tiny.obj",
+              sheet([](Vec3 p) { return p.x == 3 && p.y == 2.2 ? p + Vec3{0, 0, 0.06} : p; }));
+  const Outcome r = run("convert neutral.obj tiny.obj -o face.sweep --tolerance 0.1");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("is within the tolerance and lost in 'tiny' ("), std::string::npos) << r.err;
+  EXPECT_EQ(run("convert neutral.obj tiny.obj -o face.sweep --tolerance 0.01").err, "");
 }
 
 TEST_F(Convert, LeavesTheOldFileWhereItFails) {

@@ -68,6 +68,22 @@ TEST_F(Edit, TakesSeveralCurvesAndControlsAtOnce) {
   EXPECT_EQ(heights, (std::set<double>{0.2, 0.3}));
 }
 
+TEST_F(Edit, OfAnExpressionLeavesTheNeutralAsItIs) {
+  convertRig();
+  const Outcome r = run("edit face.sweep --target smile --move c1 0,0.3,0 -o other.sweep");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto exported = [&](const std::string& file, const char* weights) {
+    EXPECT_EQ(run("export " + file + " -o out.obj --weights " + weights).code, 0);
+    return contents(folder / "out.obj");
+  };
+  EXPECT_EQ(exported("other.sweep", "jawOpen=1"), exported("face.sweep", "jawOpen=1"));
+  const auto smile = [&](const std::string& file) {
+    exported(file, "smile=1");
+    return mesh("out.obj").positions;
+  };
+  EXPECT_NEAR(largestDistance(smile("other.sweep"), smile("face.sweep")), 0.3, 1e-6);
+}
+
 TEST_F(Edit, MovesANodeWhereItIsToldThoughCurvesDisagree) {
   const std::string curves = "--move a1-b1 0,0,1 --move b1-c1 0,0,2", node = " --move b1 0,0,3 ";
   for (const std::string& moves : {curves + node, node + curves}) {

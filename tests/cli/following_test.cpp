@@ -170,6 +170,10 @@ TEST_F(Following, SaysWhatWouldCombineIfItWereSpeltAlike) {
                {"jawOpen", moved},
                {"smile_jawopen", moved},
                {"smile-50", moved},
+               {"smile_ib50", moved},
+               {"jawOpen+smile", moved},
+               {"fixOf_jawOpen_smile", moved},
+               {"smileMore", moved},
                {"smile_jawOpen", moved}});
   const std::string said = run("export face.sweep -o out.obj --combine").err;
   EXPECT_TRUE(
@@ -177,7 +181,11 @@ TEST_F(Following, SaysWhatWouldCombineIfItWereSpeltAlike) {
       said.contains("--combine: smile_jawopen does not follow smile and jawOpen, as it is"))
       << said;
   EXPECT_TRUE(said.contains("--combine: smile-50 does not follow smile, as it is not spelt alike"));
-  EXPECT_EQ(std::ranges::count(said, '\n'), 2) << said;
+  EXPECT_TRUE(said.contains("--combine: smile_ib50 does not follow smile, as"));
+  for (const char* name : {"jawOpen+smile", "fixOf_jawOpen_smile"})
+    EXPECT_TRUE(said.contains(fmt::format("--combine: {} does not follow jawOpen and smile", name)))
+        << said;
+  EXPECT_EQ(std::ranges::count(said, '\n'), 5) << said;
 }
 
 TEST_F(Following, SaysWhereNothingTurnsOrIsCombined) {

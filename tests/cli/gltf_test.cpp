@@ -90,6 +90,17 @@ TEST_F(GltfSource, ItsSceneGoesWithItsOrder) {
   EXPECT_EQ(run(command + "--strip order --bare").err, "");
 }
 
+TEST_F(GltfSource, IsRefusedWhereItsSceneAloneTakesMoreThanIsAllowed) {
+  const std::string command = "convert face.glb -o face.sweep --tolerance 0.1 --max-bytes 20";
+  EXPECT_TRUE(fails(command, "What face.glb holds besides the face takes "));
+  EXPECT_EQ(run(command + "00").code, 0);
+}
+
+TEST_F(GltfSource, MayBeAnAvatar) {
+  folder.file("face.VRM", smallFace().bytes());
+  EXPECT_EQ(report("convert face.VRM -o face.sweep --tolerance 0.1")["targets"], 2);
+}
+
 TEST_F(GltfSource, MayHaveItsBufferBesideIt) {
   folder.file("sub/face.gltf", smallFace().text("face.bin"));
   EXPECT_TRUE(fails("convert sub/face.gltf -o face.sweep", "sub/face.gltf: buffer 0: the file "));

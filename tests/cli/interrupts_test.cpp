@@ -33,5 +33,18 @@ TEST(Interrupts, WaitForWorkThatClearsAway) {
   EXPECT_EXIT(workThatClearsAway(), ::testing::ExitedWithCode(0), "");
 }
 
+[[noreturn]] void workInTheBackground() {
+  std::signal(SIGINT, SIG_IGN);
+  const auto code = doLongWork(0, [] {
+    std::raise(SIGINT);
+    return Result<int>(interrupted ? 1 : 0);
+  });
+  ::_exit(*code);
+}
+
+TEST(Interrupts, LeaveWorkAloneThatIgnoresThem) {
+  EXPECT_EXIT(workInTheBackground(), ::testing::ExitedWithCode(0), "");
+}
+
 }  // namespace
 }  // namespace sweepface::cli

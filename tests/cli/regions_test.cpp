@@ -31,6 +31,24 @@ TEST_F(RegionsOnTheFace, AreThoseOfACaptureThatHasSome) {
   EXPECT_NE(contents(folder / "take.glb").find("jawOpen@"), std::string::npos);
 }
 
+TEST_F(RegionsOnTheFace, ReplaceThoseOfACapture) {
+  convertRig();
+  heavySide();
+  const std::string clip = R"({"exportFps": 2, "facsNames": ["jawOpen"], "weightMat": [[0], [1]])";
+  folder.file("take.json",
+              clip + R"(, "regions": [{"name": "side", "points": [[0, 0, 0]], "fade": 2}]})");
+  folder.file("plain.json", clip + "}");
+  const auto said = [&](const std::string& take) {
+    const Outcome r =
+        run("animate face.sweep --clip " + take + " --regions heavy.json -o take.glb");
+    EXPECT_EQ(r.code, 0) << r.err;
+    return r.err;
+  };
+  EXPECT_NE(said("take.json").find("take.json: its own regions are not used, but those of heavy"),
+            std::string::npos);
+  EXPECT_EQ(said("plain.json").find("its own regions"), std::string::npos);
+}
+
 TEST_F(RegionsOnTheFace, AHeavySideTakesLonger) {
   convertRig();
   heavySide();

@@ -49,7 +49,7 @@ TEST_F(Render, FollowsWeightsViewAndLod) {
   EXPECT_NE(rendered("--view side"), plain);
   EXPECT_NE(rendered("--lod 1"), rendered("--lod 8"));
   EXPECT_EQ(rendered("--view 0,0"), plain);
-  EXPECT_EQ(rendered("--view -360,0").empty(), false);
+  EXPECT_EQ(rendered("--view -360,0"), plain);
 }
 
 TEST_F(Render, GoesClose) {
@@ -102,9 +102,11 @@ TEST_F(Render, ComparesWithTheMeshes) {
     EXPECT_EQ(r.err, "");
   }
   folder.file("far.obj", sheet([](Vec3 p) { return p + Vec3{0, 0, 9}; }));
-  EXPECT_NE(run("render face.sweep -o out.png --size 400x300 --compare far.obj")
+  EXPECT_NE(run("render face.sweep -o far.png --size 400x300 --compare far.obj")
                 .err.find("or these are not the meshes that it was made from"),
             std::string::npos);
+  ASSERT_EQ(run("render face.sweep -o out.png --size 400x300 --compare neutral.obj").code, 0);
+  EXPECT_NE(contents(folder / "far.png"), contents(folder / "out.png"));
   ASSERT_EQ(run("render face.sweep -o out.png --size 400x400 --views front,side --style error "
                 "--compare neutral.obj")
                 .code,

@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "sweepface/codec.hpp"
+#include "sweepface/measure.hpp"
 
 #include "cli/tool.hpp"
 #include "codec/rigs.hpp"
@@ -156,6 +158,20 @@ TEST_F(Measure, ComparesEveryShapeAndMixture) {
   EXPECT_EQ(report["shapes"][0]["displacementMax"], 0);
   EXPECT_GT(report["worst"]["displacementRms"], 0);
   EXPECT_GT(report["worst"]["angle99"], 0);
+  const std::vector<std::filesystem::path> targets{folder / "targets"};
+  const Measurement own = measure(decode(contents(folder / "face.sweep"), "face.sweep").value(),
+                                  readRig(folder / "neutral.obj", targets).value(), {3})
+                              .value();
+  for (std::size_t k = 0; k < own.shapes.size(); ++k) {
+    const PoseErrors& e = own.shapes[k];
+    const json& row = report["shapes"][k];
+    EXPECT_EQ(row["name"], e.name);
+    EXPECT_EQ(row["angleMax"], e.angle.max);
+    EXPECT_EQ(row["shadingRms"], e.shadingRms);
+    EXPECT_EQ(row["facetDistance"], e.facetDistance);
+    EXPECT_EQ(row["facetExcess"], e.facetExcess);
+    EXPECT_EQ(row["folds"], e.folds);
+  }
 }
 
 TEST_F(Measure, PrintsARowAShape) {
@@ -242,8 +258,12 @@ TEST_F(Usage, TakesFacesThatDoNotKnowTheirQuads) {
 }
 
 TEST_F(Usage, EveryCommandHelps) {
-  for (const std::string command :
-       {"convert", "info", "check", "measure", "export", "animate", "wireframe"}) {
+  std::istringstream help(run("help").out);
+  std::string line;
+  while (line != "Subcommands:") ASSERT_TRUE(std::getline(help, line));
+  int commands = 0;
+  for (; std::getline(help, line) && line.starts_with("  "); ++commands) {
+    const std::string command = line.substr(2, line.find(' ', 2) - 2);
     const Outcome r = run(command + " --help");
     EXPECT_EQ(r.code, 0);
     EXPECT_NE(r.out.find("  sweepface " + command), std::string::npos) << r.out;
@@ -251,6 +271,7 @@ TEST_F(Usage, EveryCommandHelps) {
     EXPECT_NE(run("--help").out.find("  " + command), std::string::npos);
     EXPECT_TRUE(fails(command, "is required\nTry `sweepface " + command + " --help`", 2));
   }
+  EXPECT_GE(commands, 14);
 }
 
 TEST_F(Usage, HasAVersion) {
@@ -313,20 +334,24 @@ TEST_F(Usage, ListsEndWhereTheFaceBegins) {
        {"plot --laws linear,newton face.sweep --to smile=1 -o a.svg",
         "plot --weight smile face.sweep --to smile=1 -o a.svg",
         "plot --vertex 3,5 face.sweep --to smile=1 -o a.svg",
-        "report --box smile face.sweep --weights smile=1 -o a.html",
         "render --law newton,linear --box smile face.sweep --to smile=1 -o a.png --frames 2",
         "edit --move n0 0,0,0.1 --move n1 0,0,0.1 face.sweep -o other.sweep"}) {
     const Outcome r = run(arguments);
     EXPECT_EQ(r.code, 0) << arguments << r.err;
   }
+  EXPECT_TRUE(fails("report --box smile face.sweep --weights frown=1 -o a.html", "frown"));
 }
 
+// A pipe can be read once; a report that has read it goes on to the meshes.
 TEST_F(Usage, ReadsAFaceFromAPipe) {
   convertRig();
-  for (const char* rest : {"info /dev/stdin", "report /dev/stdin -o page.html"}) {
-    const std::string command = fmt::format("cd '{}' && cat face.sweep | '{}' {} >.out",
+  for (const auto& [rest, says] :
+       {std::pair("info /dev/stdin", ""),
+        {"report /dev/stdin nothing.obj -o page.html", "Cannot read nothing.obj"}}) {
+    const std::string command = fmt::format("cd '{}' && cat face.sweep | '{}' {} >.out 2>.err",
                                             (folder / "").string(), SWEEPFACE_TOOL, rest);
-    EXPECT_EQ(std::system(command.c_str()), 0) << rest;
+    EXPECT_EQ(std::system(command.c_str()) == 0, *says == 0) << rest;
+    EXPECT_NE(contents(folder / ".err").find(says), std::string::npos) << rest;
   }
 }
 

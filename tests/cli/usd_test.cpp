@@ -81,9 +81,9 @@ TEST_F(ToolUsd, RefusesOptionsThatDoNotGoTogether) {
   EXPECT_TRUE(fails("export face.sweep -o out.usda --vertices 2", "vertices"));
   EXPECT_TRUE(fails("export face.sweep -o out.usda --combine", "A .usda holds all targets"));
   EXPECT_TRUE(fails("export face.sweep -o out.usdc", "must end in"));
-  EXPECT_TRUE(fails("export face.sweep -o out.glb --z-up", "is for .usda and .usdz files"));
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --z-up", "is for .glb, .usda and .usdz files"));
   EXPECT_TRUE(
-      fails("export face.sweep -o all --meters-per-unit 1", "is for .usda and .usdz files"));
+      fails("export face.sweep -o all --meters-per-unit 1", "is for .glb, .usda and .usdz files"));
   EXPECT_TRUE(fails("export face.sweep -o out.usda --meters-per-unit 0", "--meters-per-unit", 2));
   const std::string animate = "animate face.sweep --to smile=1 -o out.usda ";
   EXPECT_TRUE(fails(animate + "--keys exact", "are for .glb files"));

@@ -68,9 +68,8 @@ TEST(Texture, OfWhatIsEvenlyLaidOutCostsHardlyAnything) {
 // Without learning from the bends of earlier quads, each of 625 coordinates would cost its own
 // bend, up to 47 and 94 steps.
 TEST(Texture, FollowsWhatBendsMoreAndMore) {
-  const Polygons bent = sheetWith([](int x, int y) {
-    return std::array{31 * x + x * x * y, 40 * y - 2 * x * y * y};
-  });
+  const Polygons bent = sheetWith(
+      [](int x, int y) { return std::array{31 * x + x * x * y, 40 * y - 2 * x * y * y}; });
   expectReadBack(bent);
   EXPECT_LT(written(bent).size(), 250u);
 }

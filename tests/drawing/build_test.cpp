@@ -6,6 +6,7 @@
 
 #include "codec/grid_size.hpp"
 #include "drawing/drawings.hpp"
+#include "fit/defaults.hpp"
 
 namespace sweepface {
 namespace {
@@ -223,6 +224,10 @@ TEST(References, nameSomethingWhereTheyAreGiven) {
               std::string::npos);
 }
 
+TEST(Tolerance, thatIsNotGivenIsTheUsualOne) {
+  EXPECT_DOUBLE_EQ(made(square()).tolerance, kDefaultTolerance * norm(Vec3{4, 4, 0}));
+}
+
 TEST(WhatNobodySays, bendsLeast) {
   const Rig rig = made(square());
   for (double u : {0.5, 3.0, 7.5})
@@ -263,26 +268,6 @@ TEST(Edges, areWholeNumbersThatAFileHolds) {
               std::string::npos)
         << refusal(drawing);
   }
-}
-
-/// The square with a second row of two patches on top of it; e lies on dc.
-Json withTNode() {
-  Json drawing = square();
-  drawing["nodes"].push_back({{"name", "e"}});
-  for (const auto& [name, x] : {std::pair{"f", 0.0}, {"g", 4.0 / 3}, {"h", 4.0}})
-    drawing["nodes"].push_back({{"name", name}, {"at", {x, 8, 0}}});
-  drawing["curves"].erase(2);
-  for (const auto& [from, to] : {std::pair{"d", "e"},
-                                 {"e", "c"},
-                                 {"f", "g"},
-                                 {"g", "h"},
-                                 {"d", "f"},
-                                 {"e", "g"},
-                                 {"c", "h"}})
-    drawing["curves"].push_back({{"name", std::string(from) + to}, {"from", from}, {"to", to}});
-  drawing["patches"] = Json::parse(R"([{"sides": ["ab", "bc", ["-ec", "-de"], "da"]},
-      {"sides": ["de", "eg", "-fg", "-df"]}, {"sides": ["ec", "ch", "-gh", "-eg"]}])");
-  return drawing;
 }
 
 TEST(TNodes, standOnTheSidesTheyDivide) {
@@ -442,36 +427,6 @@ TEST(Rings, mayBeOnePatchAndOneCurve) {
   EXPECT_GE(rig.surface.edgesV(0), 3);
 }
 
-/// A cone of three slices whose tip is three nodes at one point.
-Json cone() {
-  Json drawing = Json::parse(
-      R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [], "patches": []})");
-  for (int k = 0; k < 3; ++k) {
-    const std::string n = std::to_string(k), next = std::to_string((k + 1) % 3);
-    const double a = 2 * M_PI * k / 3, b = 2 * M_PI * (k + 0.5) / 3;
-    Json tip{{"name", "tip" + n}};
-    if (k == 0) tip["at"] = {0, 3, 0};
-    if (k > 0) tip["with"] = "tip0";
-    drawing["nodes"].push_back(tip);
-    drawing["nodes"].push_back({{"name", "base" + n}, {"at", {std::cos(a), 0, -std::sin(a)}}});
-    drawing["curves"].push_back(
-        {{"name", "turn" + n}, {"from", "tip" + n}, {"to", "tip" + next}, {"collapsed", true}});
-    drawing["curves"].push_back({{"name", "ray" + n}, {"from", "tip" + n}, {"to", "base" + n}});
-    drawing["curves"].push_back({{"name", "arc" + n},
-                                 {"from", "base" + n},
-                                 {"to", "base" + next},
-                                 {"points", {{std::cos(b), 0, -std::sin(b)}}}});
-    drawing["patches"].push_back(
-        {{"name", "slice" + n}, {"sides", {"-ray" + n, "-turn" + n, "ray" + next, "-arc" + n}}});
-  }
-  for (Json& patch : drawing["patches"]) {  // counter-clockwise
-    const std::string n = patch["name"].get<std::string>().substr(5),
-                      next = std::to_string((std::stoi(n) + 1) % 3);
-    patch["sides"] = {"ray" + n, "arc" + n, "-ray" + next, "-turn" + n};
-  }
-  return drawing;
-}
-
 TEST(Tips, areNodesAtOnePointWithCollapsedCurvesBetween) {
   const Rig rig = made(cone());
   EXPECT_EQ(std::ranges::count(rig.surface.connectivity().kinds, NodeKind::irregular), 3);
@@ -587,41 +542,6 @@ TEST(Creases, areSharpWhereTheyAreDeclared) {
     EXPECT_LT(join.positionGap, 1e-12);
     EXPECT_GT(join.normalJump, 10);
   }
-}
-
-/// A cube with only sharp edges, as it is written: three jets at every corner, each of which shares
-/// a derivative with the next.
-Json writtenCube() {
-  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [],
-      "patches": [], "creases": []})");
-  const auto name = [](int x, int y, int z) {
-    return "n" + std::to_string(x) + std::to_string(y) + std::to_string(z);
-  };
-  for (int k = 0; k < 8; ++k) {
-    const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
-    drawing["nodes"].push_back({{"name", name(x, y, z)}, {"at", {x, y, z}}});
-    for (int axis = 0; axis < 3; ++axis) {
-      if (k >> axis & 1) continue;
-      const int to = k | 1 << axis;
-      const std::string end = name(to & 1, to >> 1 & 1, to >> 2);
-      drawing["curves"].push_back(
-          {{"name", name(x, y, z) + "-" + end}, {"from", name(x, y, z)}, {"to", end}});
-      drawing["creases"].push_back(name(x, y, z) + "-" + end);
-    }
-  }
-  const auto patch = [&](std::array<const char*, 4> corners) {
-    Json sides = Json::array();
-    for (std::size_t s = 0; s < 4; ++s) {
-      const std::string a = std::string("n") + corners[s],
-                        b = std::string("n") + corners[(s + 1) % 4];
-      sides.push_back(a < b ? a + "-" + b : "-" + b + "-" + a);
-    }
-    drawing["patches"].push_back({{"sides", std::move(sides)}});
-  };
-  patch({"000", "010", "110", "100"}), patch({"001", "101", "111", "011"});
-  patch({"000", "100", "101", "001"}), patch({"010", "011", "111", "110"});
-  patch({"000", "001", "011", "010"}), patch({"100", "110", "111", "101"});
-  return Json::parse(formatDrawing(draw(made(drawing))));
 }
 
 TEST(Creases, haveJetsThatAgree) {

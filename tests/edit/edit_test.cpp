@@ -295,13 +295,18 @@ TEST(EveryEdit, WaitsForTheTargets) {
   EXPECT_EQ(rig.neutral, before.neutral);
 }
 
-TEST(Nodes, OfATargetMoveInItAlone) {
-  const auto [name, surface] = everySurface().front();
-  const Rig before = rigOf(surface);
-  Rig after = before;
-  ASSERT_TRUE(moveNodes(after, std::array{NodeMove{0, {1, 2, 3}}}, 0));
-  EXPECT_EQ(after.neutral, before.neutral);
-  EXPECT_NE(after.targets[0].difference, before.targets[0].difference);
+TEST(EveryEdit, OfATargetMovesInItAlone) {
+  Rig before = sheet();
+  before.targets = rigOf(before.surface).targets;
+  Rig nodes = before, controls = before;
+  const Index curve = before.find(Thing::curve, "b1-c1").value(),
+              patch = before.find(Thing::patch, "b1 c2").value();
+  ASSERT_TRUE(moveNodes(nodes, std::array{NodeMove{0, {1, 2, 3}}}, 0));
+  ASSERT_TRUE(moveControls(controls, {curve, patch, {1, 2, 3}, {}}, 0));
+  for (const Rig* after : {&nodes, &controls}) {
+    EXPECT_EQ(after->neutral, before.neutral);
+    EXPECT_NE(after->targets[0].difference, before.targets[0].difference);
+  }
 }
 
 // The reference that targets are relative to does not change. (Where nodes store more, the

@@ -5,6 +5,7 @@
 #include "sweepface/eval.hpp"
 #include "sweepface/evaluator.hpp"
 
+#include "eval/stitching.hpp"
 #include "surface/distances.hpp"
 #include "surface/surfaces.hpp"
 
@@ -257,7 +258,7 @@ TEST(Density, cutsNoFurtherAcrossWhereAnEdgeIsAsFineAsItMayBe) {
 }
 
 TEST(Density, cutsPatchesOfMoreEdgesThanAMeshHasVertices) {
-  const Surface surface = Surface::make(onePatch(40'000'000, 1)).value();
+  const Surface surface = Surface::make(onePatch(kMostVertices + 1, 1)).value();
   const auto density = densityFor(surface, neutral(surface), {Budget::Kind::error, 1e5});
   ASSERT_TRUE(density) << density.error().message;
   EXPECT_GT(density->patches[0][0], 3);

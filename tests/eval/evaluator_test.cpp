@@ -1,5 +1,6 @@
 #include "sweepface/evaluator.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <random>
 #include <thread>
@@ -65,8 +66,10 @@ std::vector<Vec3> surfacePositions(const Rig& rig, Index level,
 
 double largestDistance(const std::vector<float>& floats, const std::vector<Vec3>& wanted) {
   double most = 0;
-  for (std::size_t v = 0; v < wanted.size(); ++v)
-    most = std::max(most, norm(vectorOf(floats, v) - wanted[v]));
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    const double distance = norm(vectorOf(floats, v) - wanted[v]);
+    if (distance > most || std::isnan(distance)) most = distance;
+  }
   return most;
 }
 

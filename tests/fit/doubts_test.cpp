@@ -1,6 +1,7 @@
 #include "fit/doubts.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -126,9 +127,13 @@ TEST(Doubts, AreOfTargetsThatAreTheNeutral) {
 }
 
 TEST(Doubts, AreOfTargetsThatAreCalledLikeANeutral) {
-  const auto doubts = doubtsAbout(rigWith({{"open", opened()}, {"Neutral", opened()}}), 0.01);
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_NE(doubts[0].find("called like a neutral but are others: 'Neutral';"), std::string::npos);
+  for (const char* name : {"Neutral", "basis", "REST"}) {
+    const auto doubts = doubtsAbout(rigWith({{"open", opened()}, {name, opened()}}), 0.01);
+    ASSERT_EQ(doubts.size(), 1u) << name;
+    EXPECT_NE(doubts[0].find(fmt::format("called like a neutral but are others: '{}';", name)),
+              std::string::npos)
+        << doubts[0];
+  }
 }
 
 TEST(Doubts, NameSixTargetsAtMost) {

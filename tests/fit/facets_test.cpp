@@ -4,6 +4,7 @@
 
 #include "faces.hpp"
 #include "fit/corner_places.hpp"
+#include "fit/vertex_normals.hpp"
 
 namespace sweepface {
 namespace {
@@ -51,6 +52,28 @@ TEST(Facets, OfAConcavePolygonDoNotCoverItsNotch) {
   const Facets facets(rig.source, map, l.positions, {}, 0);
   EXPECT_NEAR(facets.distance({1.3, 1.3, 0}, 0), 0.3, 1e-12);
   EXPECT_NEAR(facets.distance({0.7, 0.7, 0.1}, 0), 0.1, 1e-12);
+}
+
+TEST(Facets, SagByAnEighthOfTheirEdgesTimesTheAngleBetweenTheirNormals) {
+  constexpr Index n = 24;
+  const MeshRig tube{grid(
+                         n, 3,
+                         [](double i, double j) {
+                           const double a = turn(i / n);
+                           return Vec3{4 * std::cos(a), 4 * std::sin(a), j};
+                         },
+                         true),
+                     {}};
+  const std::vector<Vec3>& positions = tube.neutral.positions;
+  const Rig rig = convert(tube).value().rig;
+  const FaceMap map(rig, placesOf(rig), positions);
+  const std::vector<Vec3> normals =
+      vertexNormals(rig.source.polygons, positions, map.cornerPlaces,
+                    Tessellation(rig.surface, 1).vertexCount(), rig.source.quadCorners);
+  const Facets facets(rig.source, map, positions, normals, 0);
+  const double edge = norm(positions[1] - positions[0]), expected = edge * turn(1.0 / n) / 8;
+  for (Index face = n; face < 2 * n; ++face)
+    EXPECT_NEAR(facets.sag(face), expected, 0.01 * expected) << face;
 }
 
 TEST(FaceMap, OfAFanTakesRoomForItsCornersAlone) {

@@ -95,6 +95,16 @@ TEST(Measure, findsNoAngleOnAPlane) {
   EXPECT_TRUE(m->mixtures.empty());
 }
 
+TEST(Measure, showsAKnownLiftInTheFacets) {
+  const MeshRig flat{grid(6, 5, [](double x, double y) { return Vec3{x, y, 0}; }), {}};
+  MeshRig lifted = flat;
+  for (Vec3& p : lifted.neutral.positions) p.z += 0.3;
+  const auto m = measure(roughly(flat), lifted);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_NEAR(m->worst.facetDistance, 0.3, 1e-6);
+  EXPECT_NEAR(m->worst.facetExcess, 0.3, 1e-6);
+}
+
 TEST(Measure, showsAKnownTiltAsThatAngle) {
   const auto tilted = [](double degrees) {
     const double a = degrees * std::numbers::pi / 180;
@@ -131,7 +141,7 @@ TEST(Measure, seesAnOutlierInTheMaximumOnly) {
   const Rig rig = roughly(source);
   MeshRig moved = exported(rig, source);
   moved.neutral.positions[1300].z += 1;
-  const auto m = measure(rig, moved);
+  const auto m = measure(rig, moved, {.facets = false});
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_NEAR(m->worst.distance.max, 1, 1e-12);
   EXPECT_EQ(m->worst.distance.p999, 0);

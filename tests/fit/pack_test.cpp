@@ -153,6 +153,21 @@ TEST(Pack, leavesTheFaceAsItWasWhereItFails) {
   EXPECT_TRUE(refusal({.tolerance = 1e-12}).contains("finer than a file's numbers"));
 }
 
+TEST(Pack, comparesATargetWithTheImageOfTheOtherSide) {
+  MeshRig face{grid(12, 5, [](double i, double j) { return Vec3{i - 6, j + i * (12 - i) / 9, 0}; }),
+               {}};
+  for (const auto& [name, side] : {std::pair("smile_L", 1.0), {"smile_R", -1.0}}) {
+    MeshTarget& smile = face.targets.emplace_back(name, face.neutral.positions);
+    for (Vec3& p : smile.positions)
+      p.z += std::exp(-0.3 * (p.x - 3 * side) * (p.x - 3 * side) - 0.2 * p.y * p.y);
+  }
+  Rig rig = converted(face, 0.001);
+  ASSERT_TRUE(pack(rig, {.tolerance = 0.002}));
+  ASSERT_EQ(rig.packing.poses.size(), 3u);
+  EXPECT_EQ(rig.packing.poses[1].image, -1);
+  EXPECT_EQ(rig.packing.poses[2].image, 1);
+}
+
 TEST(Pack, needsTheTargets) {
   Rig whole = converted(withTargets(plane()), 0.01);
   ASSERT_TRUE(pack(whole));

@@ -81,6 +81,39 @@ TEST(Turns, aLidTurnsAboutItsBall) {
   EXPECT_LE(norm(turns[0].pivot - centre), 0.1);
 }
 
+TEST(Turns, aTwistIsNone) {
+  const Rig rig = converted(
+      moved(plane(), [](const Vec3& p) { return turned(p, {0, 4, 0}, {1, 0, 0}, 9 * p.x - 30); }));
+  EXPECT_TRUE(findTurns(rig).empty());
+}
+
+// Another part turns about another axis: a lone triangle, or a corner of a sheet.
+TEST(Turns, aPartThatIsTinyOrMostlyStillTellsNothing) {
+  PolygonMesh triangle;
+  triangle.positions = {{3, 3, 0}, {5, 3, 0}, {3, 5, 0}};
+  addFace(triangle, {0, 1, 2});
+  for (const PolygonMesh& other :
+       {triangle, grid(4, 4, [](double x, double y) { return Vec3{x, y, 0}; })}) {
+    const auto move = [](const Vec3& p) {
+      if (p.x < 15) return turned(p, {5, 4, -20}, {1, 0, 0}, 2 * p.y);
+      return p.x > 22.5 && p.y > 2.5 ? turned(p, {20, 0, -6}, {0, 1, 0}, 15) : p;
+    };
+    const std::vector<Turn> turns =
+        findTurns(converted(moved(joined(plane(), other, {20, 0, 0}), move)));
+    ASSERT_EQ(turns.size(), 1u);
+    EXPECT_GT(std::abs(turns[0].axis.x), 0.8);
+  }
+}
+
+TEST(Turns, keepAnAxisThatRunsThroughADistantBall) {
+  const Vec3 pivot{0, 4, 0};
+  const auto lid = [&](const Vec3& p) { return p.x > 15 ? p : turned(p, pivot, {1, 0, 0}, 25); };
+  const std::vector<Turn> turns =
+      findTurns(converted(moved(joined(plane(), cubeSphere(4, 3), {20, 4, 0}), lid)));
+  ASSERT_EQ(turns.size(), 1u);
+  EXPECT_NEAR(std::abs(turns[0].axis.x), 1, 1e-3);
+}
+
 TEST(Turns, areNotSeenWhereThereAreNone) {
   EXPECT_TRUE(findTurns(converted(withTargets(plane(), 3))).empty());
   // A translation, a scaling, no movement, and a turn too small to matter.

@@ -3,6 +3,8 @@
 #include <numeric>
 #include <random>
 
+#include "sweepface/keys.hpp"
+
 #include "gltf/written.hpp"
 
 namespace sweepface {
@@ -192,6 +194,28 @@ TEST(AnimationWriter, WritesTheFramesWhereCurvesWouldBeLarger) {
   EXPECT_EQ(glb.numbers(sampler["output"]), clip.weights);
 }
 
+/// Floats near 20,000 are 1/512 apart, and players multiply slopes by the times that they read.
+TEST(AnimationWriter, FitsSlopesToTimesAsFloatsHoldThem) {
+  const Rig rig = converted(withTargets(plane(4, 4), 1));
+  Clip clip{{rig.targets[0].name}, {}, {}};
+  for (int f = 0; f <= 120; ++f) {
+    clip.times.push_back(20'000 + f / 120.0);
+    clip.weights.push_back(std::sin(6 * f / 120.0));
+  }
+  constexpr double kTolerance = 1e-3;
+  const CubicKeys keys = fewestKeys(clip, kTolerance);
+  const Written glb = write(rig, {.clip = &clip, .keyTolerance = kTolerance});
+  const Json& sampler = lastAnimation(glb)["samplers"][0];
+  ASSERT_EQ(sampler["interpolation"], "CUBICSPLINE");
+  const auto times = glb.numbers(sampler["input"]), rows = glb.numbers(sampler["output"]);
+  ASSERT_EQ(times.size(), keys.times.size());
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    const double span = times[k + 1] - times[k], exact = keys.times[k + 1] - keys.times[k];
+    EXPECT_NEAR(span * rows[3 * k + 2], exact * keys.out[k], 1e-6) << "after key " << k;
+    EXPECT_NEAR(span * rows[3 * k + 3], exact * keys.in[k + 1], 1e-6) << "before key " << k + 1;
+  }
+}
+
 // ---- The head ----
 
 Result<std::string> turning(const Rig& rig, double until = 1) {
@@ -275,9 +299,11 @@ TEST(AnimationWriter, TurnsTheHeadOfAFaceWithoutTargets) {
   source.primitive().erase("targets");
   const HeadTrack head{{0, 1}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {}};
   const Clip clip{{}, {0, 1}, {}};
-  const auto bytes = formatGlb(converted(source), {.clip = &clip, .head = &head});
-  ASSERT_TRUE(bytes) << bytes.error().message;
-  EXPECT_EQ(Written(*bytes).json["animations"][0]["channels"].size(), 1u);
+  for (const Clip* with : {&clip, static_cast<const Clip*>(nullptr)}) {
+    const auto bytes = formatGlb(converted(source), {.clip = with, .head = &head});
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    EXPECT_EQ(Written(*bytes).json["animations"][0]["channels"].size(), 1u);
+  }
 }
 
 TEST(AnimationWriter, LeavesJointsTheirNames) {

@@ -135,6 +135,21 @@ TEST(GltfClip, OfSeveralMeshesTheFirstOneCounts) {
   }
 }
 
+TEST(GltfClip, OfSeveralNodesThatShowAMeshTheFirstOneCounts) {
+  Glb glb = moving("LINEAR", {0, 1}, {0, 0, 1, 0.5f});
+  Json& animation = glb.json["animations"][0];
+  Json other = animation["samplers"][0], channel = animation["channels"][0];
+  other["output"] =
+      glb.addAccessor(glb.addView(bytesOf(std::vector<float>{1, 1, 1, 1})), 5126, "SCALAR", 4);
+  animation["samplers"].push_back(other);
+  channel["sampler"] = 1;
+  channel["target"]["node"] = glb.add("nodes", {{"mesh", 0}});
+  animation["channels"].insert(animation["channels"].begin(), channel);
+  const auto clip = clipOf(glb);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->weights, (std::vector<double>{0, 0, 1, 0.5}));
+}
+
 TEST(GltfClip, IsToldByPointersAsWell) {
   const Glb plain = moving("LINEAR", {0, 1}, {0, 0, 1, 0.5f});
   for (const char* pointer : {"/nodes/0/weights", "/meshes/0/weights"}) {
@@ -303,6 +318,11 @@ TEST(GltfClip, SaysWhatIsWrong) {
   for (int k = 0; k < 12; ++k) many.json["animations"].push_back(nod);
   many.json["animations"].push_back(glb.json["animations"][0]);
   EXPECT_TRUE(fails(many, "are 'talk'.", "nod"));
+  for (Json& animation : many.json["animations"]) animation = glb.json["animations"][0];
+  EXPECT_TRUE(fails(many,
+                    "are 'talk', 'talk', 'talk', 'talk', 'talk', 'talk', 'talk', 'talk', 'talk', "
+                    "'talk', ....",
+                    "nod"));
   glb.json["animations"][0]["samplers"][0]["input"] = 99;
   EXPECT_TRUE(fails(glb, "'input' is 99"));
   EXPECT_TRUE(failsWith(parseGltfClip("glTF", "move.glb", {}), {"move.glb"}));

@@ -236,7 +236,7 @@ TEST(Buffers, AreReadFromDataUris) {
   EXPECT_EQ(source->rig.neutral.positions, sheetPositions());
 }
 
-TEST(Buffers, Base64MayLackItsPadding) {
+TEST(Buffers, Base64MayLackItsPaddingAndBeThatOfUrls) {
   const auto bytesOf = [](const std::string& uri, std::size_t size) {
     const std::string text = fmt::format(
         R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{},"uri":"{}"}}]}})", size, uri);
@@ -245,6 +245,7 @@ TEST(Buffers, Base64MayLackItsPadding) {
   };
   EXPECT_EQ(bytesOf("data:;base64,aGVsbG8=", 5), "hello");
   EXPECT_EQ(bytesOf("DATA:application/gltf-buffer;base64,aGVsbG8", 5), "hello");
+  EXPECT_EQ(bytesOf("data:;base64,+/-_", 3), "\xFB\xFF\xBF");
   EXPECT_EQ(bytesOf("data:,he%6C%6co", 5), "hello");
   EXPECT_NE(bytesOf("data:;base64,aGVs*G8=", 5).find("not valid base64"), std::string::npos);
   EXPECT_NE(bytesOf("data:;base64,aGVsb", 3).find("not valid base64"), std::string::npos);

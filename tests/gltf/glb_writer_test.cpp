@@ -195,6 +195,15 @@ TEST(GlbWriter, StoresTargetsSparselyWhereThatIsSmaller) {
   EXPECT_EQ(stillness.vectors(stillness.morph(1)), std::vector<Vec3>(41 * 31));
 }
 
+TEST(GlbWriter, StoresSparseTargetsOfMoreVerticesThanSixteenBitsCount) {
+  MeshRig source{plane(260, 260), {}};
+  source.targets = {{"one", source.neutral.positions}};
+  source.targets[0].positions[67'000].z += 1;
+  const Written glb(formatGlb(source).value());
+  ASSERT_TRUE(glb.isSparse(glb.morph(0)));
+  EXPECT_EQ(glb.vectors(glb.morph(0))[67'000].z, 1);
+}
+
 TEST(GlbWriter, WritesNormalsOfTargetsOnRequest) {
   const Rig rig = converted(sheetRig());
   EXPECT_FALSE(write(rig).primitive()["targets"][0].contains("NORMAL"));
@@ -323,6 +332,14 @@ TEST(GlbWriter, KeepsCornersWithoutTexture) {
             some.accessor(some.attribute("POSITION"))["count"]);
   std::ranges::fill(p.cornerTexcoords, -1);
   EXPECT_FALSE(write(converted(source)).primitive()["attributes"].contains("TEXCOORD_0"));
+
+  // They get those of another corner, or 0, 1.
+  MeshRig half{plane(2, 1), {}};
+  half.neutral.polygons.texcoords = {{0.25, 0.5}, {1, 0.5}, {1, 0.75}, {0.25, 0.75}};
+  half.neutral.polygons.cornerTexcoords = {-1, -1, -1, -1, 0, 1, 2, 3};
+  const Written glb(formatGlb(half).value());
+  EXPECT_EQ(glb.numbers(glb.attribute("TEXCOORD_0")),
+            (std::vector<double>{0, 1, 0.25, 0.5, 1, 0.5, 0, 1, 0.25, 0.25, 1, 0.25}));
 }
 
 TEST(GlbWriter, WritesAnyName) {

@@ -151,7 +151,7 @@ TEST(LodWriter, GivesWholeNumbersOfTheNearestVertex) {
   for (std::size_t v = 0; v < at.size(); ++v) {
     EXPECT_NEAR(warmth[v], 7 + at[v].y, 1e-6);
     EXPECT_EQ(std::fmod(kind[v], 10), 0) << "nothing in between";
-    EXPECT_LT(std::abs(kind[v] / 10 - at[v].y), 0.76);
+    EXPECT_LT(std::abs(kind[v] / 10 - at[v].y), 0.51);
   }
 }
 

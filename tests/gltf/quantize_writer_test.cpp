@@ -106,6 +106,18 @@ TEST(QuantizeWriter, TakesLessRoom) {
 
 // ---- In scenes ----
 
+void animateFirstNode(Glb& glb, std::initializer_list<const char*> paths) {
+  const std::size_t input =
+      glb.addAccessor(glb.addView(bytesOf(std::vector<float>{0, 2})), 5126, "SCALAR", 2);
+  const std::size_t output =
+      glb.addAccessor(glb.addView(bytesOf(std::vector<float>{0, 0, 1, 1, 2, 2})), 5126, "VEC3", 2);
+  Json channels = Json::array();
+  for (const char* path : paths)
+    channels.push_back({{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}});
+  glb.add("animations", {{"samplers", Json::array({{{"input", input}, {"output", output}}})},
+                         {"channels", channels}});
+}
+
 TEST(QuantizeWriter, HangsTheMeshBelowANodeThatIsMoreThanAPlace) {
   Glb source = smallFace();
   source.json["nodes"][0] = {{"name", "head"},
@@ -114,15 +126,7 @@ TEST(QuantizeWriter, HangsTheMeshBelowANodeThatIsMoreThanAPlace) {
                              {"translation", {1, 2, 3}},
                              {"children", {1}}};
   source.add("nodes", {{"name", "hat"}});
-  const std::size_t input =
-      source.addAccessor(source.addView(bytesOf(std::vector<float>{0, 2})), 5126, "SCALAR", 2);
-  const std::size_t output = source.addAccessor(
-      source.addView(bytesOf(std::vector<float>{0, 0, 1, 1, 2, 2})), 5126, "VEC3", 2);
-  Json channels = Json::array();
-  for (const char* path : {"weights", "translation"})
-    channels.push_back({{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}});
-  source.add("animations", {{"samplers", Json::array({{{"input", input}, {"output", output}}})},
-                            {"channels", channels}});
+  animateFirstNode(source, {"weights", "translation"});
   const Rig rig = converted(source);
   const Motion motion =
       *Motion::make(std::vector{0.0, 0.0}, std::vector{1.0, 0.0}, TimeLaw::newton, 1);
@@ -142,6 +146,15 @@ TEST(QuantizeWriter, HangsTheMeshBelowANodeThatIsMoreThanAPlace) {
   std::vector<Vec3> placed = enlarged(nodes[2], glb.vectors(glb.attribute("POSITION")), 1);
   for (Vec3& p : placed) p += Vec3{1, 2, 3};
   expectWithin(placed, surfacePositions(rig), 1.01 * halfStep(nodes[2]));
+}
+
+TEST(QuantizeWriter, HangsTheMeshBelowANodeThatAnAnimationMoves) {
+  Glb source = smallFace();
+  animateFirstNode(source, {"translation"});
+  const Json nodes = write(converted(source), {.quantize = true}).json["nodes"];
+  ASSERT_EQ(nodes.size(), 2u);
+  EXPECT_EQ(nodes[0], Json({{"children", {1}}}));
+  EXPECT_EQ(nodes[1]["mesh"], 0);
 }
 
 /// A skinned vertex is placed by the inverse bind matrix, then by the joint.
@@ -223,6 +236,10 @@ TEST(QuantizeWriter, RefusesWhatItWouldEnlarge) {
   avatar.add("nodes", {{"name", "hat"}});
   avatar.json["extensionsUsed"] = {"VRMC_vrm"};
   refuses(avatar, "VRMC_vrm");
+
+  Glb pointed = smallFace();  // pointers may move the node
+  pointed.json["extensionsUsed"] = {"KHR_animation_pointer"};
+  refuses(pointed, "KHR_animation_pointer");
 
   Glb crowd = smallFace();
   crowd.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};

@@ -102,7 +102,11 @@ TEST(References, WhatIsPassedOnNamesWhatThereIs) {
          j["animations"][0]["channels"][1]["target"]["path"] = "scale";
          j["accessors"][j["animations"][0]["samplers"][1]["output"].get<int>()]["count"] = 1;
        },
-       "animation 0, sampler 1: it has 1 values for 2 keys"}};
+       "animation 0, sampler 1: it has 1 values for 2 keys"},
+      {[](Json& j) {
+         j["accessors"][j["animations"][0]["samplers"][1]["output"].get<int>()]["count"] = 3;
+       },
+       "animation 0, sampler 1: it has 3 values for 2 keys"}};
   for (const auto& [make, words] : faults) {
     Glb glb = animatedFace();
     make(glb.json);

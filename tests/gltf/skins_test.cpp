@@ -202,6 +202,34 @@ TEST(Skins, ThatRoundALittlePlaceNothing) {
   EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions());
 }
 
+TEST(Skins, ThatScaleALittlePlace) {
+  Glb glb = smallFace();
+  hang(glb, 0, kOnFirst);
+  addSkin(glb, 0, kJoints, bindingOf(kJoints, 1.001, {}));
+  std::vector<Vec3> expected = sheetPositions();
+  for (Vec3& p : expected) p *= 1.001;
+  expectNear(read(glb).rig.neutral.positions, expected);
+}
+
+TEST(Skins, PlaceInAFewDifferentWaysOnly) {
+  constexpr std::size_t kMeshes = 70, kPlaced = 63;
+  std::vector<Joint> joints;
+  for (std::size_t k = 0; k < kMeshes; ++k) joints.push_back({{}, 2.0 + static_cast<double>(k)});
+  Glb glb = smallFace();
+  const std::size_t skin = addSkin(glb, 0, joints, bindingOf(joints, 1, {}));
+  std::vector<Vec3> expected;
+  for (std::size_t k = 0; k < kMeshes; ++k) {
+    if (k > 0) {
+      glb.add("meshes", Json(glb.json["meshes"][0]));
+      glb.add("nodes", {{"mesh", k}, {"skin", skin}});
+    }
+    hang(glb, k, std::vector<std::uint8_t>(9, static_cast<std::uint8_t>(k)));
+    for (const Vec3& p : sheetPositions())
+      expected.push_back((k < kPlaced ? joints[k].size : 1) * p);
+  }
+  expectNear(read(glb).rig.neutral.positions, expected);
+}
+
 /// Two vertices are bound to the first joint, seven to the second.
 TEST(Skins, PlaceByTheJointOnWhichMostHangs) {
   for (const double size : {1.0, 0.01}) {

@@ -68,6 +68,7 @@ TEST(LiveLinkCsv, TellsItsRateWhereWholeSecondsAreThere) {
     EXPECT_NEAR(csv(frames(rate, 1, 2 * rate))->seconds(), 1 + (rate - 2) / 60., 1e-9) << rate;
   }
   // Too few rows do not determine the rate, nor do rows of less than a second.
+  EXPECT_NEAR(csv(frames(24, 0, 48, 2))->seconds(), 1 + 22 / 60., 1e-9) << "12 rows a second";
   EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:1:15,0\n0:0:2:0,0\n")->times[1], 1.25, 1e-12);
   EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:0:15,0\n")->times[1], 0.25, 1e-12);
   EXPECT_NEAR(
@@ -244,15 +245,18 @@ TEST(ClipJson, ReadsAudio2Face) {
 }
 
 TEST(ClipJson, ReadsMediaPipe) {
-  const auto clip = json(R"([
+  const std::string frames = R"([
     {"timestampMs": 0, "faceBlendshapes": [{"categories": [
       {"categoryName": "_neutral", "score": 0.9}, {"categoryName": "jawOpen", "score": 0.5}]}]},
     {"timestampMs": 40, "faceBlendshapes": []},
-    {"timestampMs": 80, "categories": [{"categoryName": "smile", "score": 1}]}])");
-  ASSERT_TRUE(clip) << clip.error().message;
-  EXPECT_EQ(clip->names, (std::vector<std::string>{"jawOpen", "smile"}));
-  EXPECT_EQ(clip->times, (std::vector<double>{0, 0.08}));
-  EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 0, 0, 1}));
+    {"timestampMs": 80, "categories": [{"categoryName": "smile", "score": 1}]}])";
+  for (const std::string& text : {frames, "{\"frames\": " + frames + "}"}) {
+    const auto clip = json(text);
+    ASSERT_TRUE(clip) << clip.error().message;
+    EXPECT_EQ(clip->names, (std::vector<std::string>{"jawOpen", "smile"}));
+    EXPECT_EQ(clip->times, (std::vector<double>{0, 0.08}));
+    EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 0, 0, 1}));
+  }
 }
 
 TEST(ClipJson, FramesWithoutAFaceAreAsThoseAroundThem) {

@@ -23,6 +23,15 @@ TEST(Files, AreWrittenAndReadWhole) {
   EXPECT_EQ(folder.fileCount(), 1u) << "no temporary file stays";
 }
 
+TEST(Files, AreWrittenBesideWhatBrokenOffWritingLeft) {
+  const TemporaryFolder folder;
+  const fs::path left = folder.file(".sweepface-0.tmp", "half");
+  ASSERT_TRUE(writeFile(folder / "a.bin", "new").has_value());
+  EXPECT_EQ(readFile(folder / "a.bin").value(), "new");
+  EXPECT_EQ(readFile(left).value(), "half");
+  EXPECT_EQ(folder.fileCount(), 2u);
+}
+
 TEST(Files, OfBareNamesAreInTheCurrentFolder) {
   EXPECT_EQ(folderOf("a.txt"), ".");
   EXPECT_EQ(folderOf("sub/a.txt"), "sub");

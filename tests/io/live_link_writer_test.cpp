@@ -83,6 +83,12 @@ TEST(LiveLinkWriter, ColumnsAreTheAppsOwn) {
   EXPECT_EQ(weight("cheekRaiser"), 0.75);
 }
 
+TEST(LiveLinkWriter, WritesZeroWithoutASign) {
+  const auto text = formatLiveLinkCsv({{"jawOpen"}, {0}, {-0.0}});
+  ASSERT_TRUE(text);
+  EXPECT_EQ(text->find("-0"), std::string::npos) << *text;
+}
+
 TEST(LiveLinkWriter, SidesThatAreAlikeAreOneColumn) {
   const auto text =
       formatLiveLinkCsv({{"cheekPuff_L", "cheekPuff_R"}, {0, 1}, {0.25, 0.25, 0.5, 0.5}});

@@ -64,6 +64,21 @@ TEST(NameMaps, AddToWhatDrivesATargetByItsOwnName) {
   EXPECT_EQ(clip.weights, std::vector{0.25});
 }
 
+TEST(NameMaps, TakeTheLargerOfTwoSidesForANameWithoutOne) {
+  const Clip clip =
+      mapped(R"({"eyeBlink": "smile"})", {{"eyeBlink_L", "eyeBlink_R"}, {0}, {0.9, 0.1}}).value();
+  EXPECT_EQ(clip.names, Texts{"smile"});
+  EXPECT_EQ(clip.weights, std::vector{0.9});
+}
+
+TEST(NameMaps, KeepANameWithoutASideApartFromATargetOfOneSide) {
+  const auto map = parseNameMap(R"({"jawOpen": "smile_L"})", "names.json").value();
+  const Texts targets{"smile_L", "smile_R"};
+  const Clip clip = renamed({{"jawOpen", "smile"}, {0}, {0.25, 0.5}}, map, targets).value();
+  EXPECT_EQ(clip.names, (Texts{"smile", "smile_L"}));
+  EXPECT_EQ(clip.weights, (std::vector{0.5, 0.25}));
+}
+
 TEST(NameMaps, TellWhichOfTheirNamesTheClipLacks) {
   const Clip clip = mapped(R"({"jawOpen": "smile", "beard": "puff", "tail": null})").value();
   EXPECT_EQ(clip.names, (Texts{"mouthSmile_L", "mouthSmileRight", "smile"}));
@@ -85,6 +100,8 @@ TEST(NameMaps, RefuseWhatCannotBeMeant) {
   refuses("{}", "is no object");
   refuses(R"({"jawOpen": "smile", "jaw_open": "puff"})",
           "'jawOpen' and 'jaw_open' are one name of the clip; keep one.");
+  refuses(R"({"jawOpen": "smile", "puff": null, "jawOpen": "puff"})",
+          "names.json has the key 'jawOpen' twice in one object; keep one.");
   refuses(R"({"jawOpen": 1})", "names.json: 'jawOpen' is neither a target's name, a list");
   refuses(R"({"jawOpen": ["smile", 2]})", "'jawOpen' is neither");
   refuses(R"({"jawOpen": {"smile": "much"}})", "drives 'smile' by what is no number within");

@@ -77,6 +77,10 @@ TEST(PlyReader, ReadsAHeaderWithAnyLineBreak) {
   }
 }
 
+TEST(PlyReader, PassesOverObjInfo) {
+  expectQuad(ply("obj_info scanned by hand\n" + quadElements, quadRows));
+}
+
 TEST(PlyReader, ReadsPositionsOfAnyScalarType) {
   const std::string types[] = {"char", "uint8",  "short",   "uint16",
                                "int",  "uint32", "float32", "double"};
@@ -124,6 +128,15 @@ TEST(PlyReader, ReadsTextureCoordinatesOfVertices) {
     EXPECT_EQ(polygons.texcoords, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
     EXPECT_EQ(polygons.cornerTexcoords, (std::vector<Index>{2, 1, 0}));
   }
+}
+
+TEST(PlyReader, TakesNoListsForTextureCoordinates) {
+  const std::string header = "element vertex 3\n" + xyz +
+                             "property list uchar float s\nproperty list uchar float t\n"
+                             "element face 1\n" +
+                             faceList;
+  EXPECT_TRUE(plyMesh(ply(header, "0 0 0 1 5 1 5\n1 0 0 1 5 1 5\n0 1 0 1 5 1 5\n3 2 1 0\n"))
+                  .polygons.texcoords.empty());
 }
 
 // The second face has none. The vertices have others, which only count if no face has any.

@@ -36,6 +36,17 @@ TEST(RegionsJson, TimelinesMayHaveNone) {
   EXPECT_TRUE(regions->empty());
 }
 
+TEST(RegionsJson, NameNoMoreThanAFaceMayHave) {
+  PaintedRegion wave{"wave", {}, {}, static_cast<int>(kMostRegions)};
+  for (const std::vector<PaintedRegion>& painted :
+       {std::vector<PaintedRegion>(kMostRegions + 1), {wave, {}}}) {
+    const auto regions = paintRegions({}, painted);
+    ASSERT_FALSE(regions);
+    EXPECT_TRUE(regions.error().message.starts_with("A face has at most"))
+        << regions.error().message;
+  }
+}
+
 void expectError(std::string_view inside, std::string_view part) {
   const auto regions = parseRegions(R"({"regions": [)" + std::string(inside) + "]}", "r.json");
   ASSERT_FALSE(regions) << inside;
@@ -58,6 +69,7 @@ TEST(RegionsJson, SayWhatIsWrongAndWhere) {
   expectError(R"({"name": "a", "parts": ["b"], "mass": "x"})", "'mass' that is not a number");
   expectError(R"({"name": "a", "parts": ["b"], "bands": 1.5})", "a whole number from 1");
   expectError(R"({"name": "a", "parts": ["b"], "fade": -1})", "below 0");
+  expectError(R"({"name": "a", "parts": ["b"], "whole": -1})", "below 0");
   expectError(R"({"name": "a", "parts": ["b"], "radius": 1})", "unknown key 'radius'");
 }
 

@@ -59,6 +59,7 @@ TEST_F(RigReader, TakesAFolderForTheMeshesInItByName) {
     folder.file(name, triangle);
   folder.file("rig/a.ply", trianglePly);
   folder.file("rig/notes.txt", "not a mesh");
+  fs::create_directory(folder / "rig/x.obj");
   EXPECT_EQ(names({neutral.parent_path()}), (std::vector<std::string>{"C", "a.PLY", "a", "b"}));
 }
 
@@ -114,6 +115,13 @@ TEST_F(RigReader, RefusesTwoTargetsOfOneName) {
   EXPECT_TRUE(failsWith(read({a, b}), {"a/smile.obj", "b/smile.ply", "both named 'smile'"}));
 }
 
+TEST_F(RigReader, RefusesAFileNamedTwice) {
+  const fs::path smile = folder.file("rig/smile.obj", triangle);
+  EXPECT_TRUE(failsWith(read({neutral}), {"neutral.obj is the neutral; leave it out"}));
+  EXPECT_TRUE(failsWith(read({smile, smile}), {"smile.obj is named twice; name it once"}));
+  EXPECT_TRUE(failsWith(read({smile, folder / "rig"}), {"smile.obj is named twice"}));
+}
+
 TEST_F(RigReader, RefusesTargetsWithoutAName) {
   EXPECT_TRUE(failsWith(read({folder.file(".obj", triangle)}), {"no name before its extension"}));
   EXPECT_TRUE(failsWith(read({folder.file(" .obj", triangle)}), {"no name before its extension"}));
@@ -135,6 +143,7 @@ TEST_F(RigReader, SaysWhichFileIsMissingOrNoMesh) {
   fs::create_directory(folder / "empty");
   EXPECT_TRUE(failsWith(read({folder / "empty"}), {"empty", "no .obj or .ply files"}));
   EXPECT_TRUE(failsWith(readRig(folder / "no.obj", {}), {"no.obj", "no such file"}));
+  EXPECT_TRUE(failsWith(readRig(folder / "rig", {}), {"rig is a folder; name the mesh"}));
 }
 
 TEST_F(RigReader, SaysThatThereIsNothingOfAName) {

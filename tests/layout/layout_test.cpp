@@ -184,13 +184,6 @@ TEST(Layout, ofAnLCutsFromItsConcaveCorner) {
 TEST(Layout, ofAClosedBandOfQuadsOfOneRowIsOpened) { EXPECT_EQ(patchCount(cylinder(3, 1)), 1u); }
 TEST(Layout, ofOneQuadIsOnePatch) { EXPECT_EQ(patchCount(plane(1, 1)), 1u); }
 
-TEST(Layout, doesNotDependOnTheOrderOfTheTargets) {
-  MeshRig rig = withTargets(dart(5));
-  std::vector<std::size_t> counts{Laid(rig).patches().size()};
-  std::ranges::reverse(rig.targets);
-  EXPECT_EQ(Laid(rig).patches().size(), counts[0]);
-}
-
 TEST(Layout, runsStraightThroughRegularVertices) {
   const Laid laid(MeshRig{plane(4, 4), {}});
   const auto beyond = [&](Index vertex, Index neighbour) {

@@ -100,7 +100,11 @@ TEST(Welding, tellsOfSeamsThatStayOpen) {
   EXPECT_EQ(mesh.warnings[0],
             "The surface is open along 5 vertices within 0.001 of others in every expression, like "
             "12 and 0 (counted from 0); merge them if it is meant to be closed there.");
-  EXPECT_TRUE(makeGridMesh(seam, 1e-6, 0.0009)->warnings.empty()) << "further apart";
+  EXPECT_EQ(makeGridMesh(seam, 1e-6, 0.0009)->warnings.at(0),
+            "The surface is open, in all expressions, along 5 vertices that stand where others do "
+            "in the neutral, but up to 0.001 from them in an expression, like 12 and 0 (counted "
+            "from 0) in 'target2'; move them alike there if it is meant to be closed.");
+  EXPECT_TRUE(makeGridMesh(seam, 1e-6, 0.00009)->warnings.empty()) << "further apart";
   EXPECT_TRUE(makeGridMesh(seam, 0.002, 0.002)->warnings.empty()) << "joined";
   move(0.1);
   EXPECT_TRUE(makeGridMesh(seam, 1e-6, 1)->warnings.empty()) << "too far for its edges";
@@ -149,6 +153,20 @@ TEST(Welding, joinsWhatRoundingPartedHoweverItStands) {
     const Index points = makeGridMesh({turned, {}}, 1e-6)->pointCount();
     EXPECT_EQ(points, 81 * 41) << round;
   }
+}
+
+/// Like the pages of a book, one of them upside down.
+TEST(Welding, leavesThreeSheetsApartThatRoundingPartedAlongAnEdge) {
+  PolygonMesh book;
+  for (int page = 0; page < 3; ++page) {
+    const double angle = turn(page / 3.0), off = 1e-7 * page;
+    const auto place = [&](double i, double j) {
+      const double r = page == 0 ? 4 - i : i;
+      return Vec3{r * std::cos(angle), r * std::sin(angle), j + off};
+    };
+    book = joined(book, grid(4, 4, place), {});
+  }
+  EXPECT_EQ(makeGridMesh({book, {}}, 1e-6)->pointCount(), 3 * 25);
 }
 
 /// In floating point the sine of pi is not quite 0, so a sphere's last row is a tiny ring.

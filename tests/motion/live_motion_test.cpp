@@ -192,6 +192,7 @@ TEST(MotionState, RefusesWithoutChange) {
 }
 
 TEST(Drive, NamesGoBothWays) {
+  EXPECT_EQ(driveFromName(nameOf(Drive::Kind::cut))->kind, Drive::Kind::cut);
   for (const Drive::Kind kind : kKinds) EXPECT_EQ(driveFromName(nameOf(kind))->kind, kind);
   EXPECT_NE(driveFromName("jump").error().message.find("accelerate-brake"), std::string::npos);
 }
@@ -202,7 +203,7 @@ TEST(MotionState, AllAtOnceIsEachAlone) {
   ASSERT_TRUE(state);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<double> all(5);
+  std::vector<double> positions(5), velocities(5);
   for (int k = 0; k < 5000; ++k) {
     Drive drive;
     drive.kind = static_cast<Drive::Kind>(random() % 6);
@@ -217,8 +218,12 @@ TEST(MotionState, AllAtOnceIsEachAlone) {
       ASSERT_TRUE(state->push(random() % 5, uniform(random), 3));
     }
     state->advance(random() % 2 == 0 ? 0.1 * uniform(random) : 0);
-    state->positions(all);
-    for (std::size_t w = 0; w < all.size(); ++w) EXPECT_EQ(all[w], state->sample(w).position);
+    state->positions(positions);
+    state->velocities(velocities);
+    for (std::size_t w = 0; w < positions.size(); ++w) {
+      EXPECT_EQ(positions[w], state->sample(w).position);
+      EXPECT_EQ(velocities[w], state->sample(w).velocity);
+    }
   }
 }
 

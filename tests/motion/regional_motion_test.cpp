@@ -1,6 +1,7 @@
 #include "sweepface/regional_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
@@ -116,6 +117,21 @@ TEST(RegionalMotion, LateRegionsGoAfterEveryGoal) {
     EXPECT_NEAR(motion.sample(1, 1).position, k < late ? 0 : first[k - late], 1e-12) << k;
     ASSERT_TRUE(motion.moveTo(std::vector{0.0, std::sin(0.1 * k)}, spring(3, 0.5)));
     motion.advance(0.015625);
+  }
+}
+
+TEST(RegionalMotion, LateRegionsMissNoneOf120GoalsASecond) {
+  constexpr int late = 64;
+  constexpr double frame = 1.0 / 128;  // adds up without rounding
+  RegionalMotion motion = motionOf({0.0}, {{}, {1, 1, late * frame}});
+  std::vector<double> first;
+  for (int k = 0; k < 4 * late; ++k) {
+    if (k % 16 > 0) {
+      ASSERT_TRUE(motion.moveTo(0, std::sin(k), {.kind = Drive::Kind::cut, .spring = {}}));
+    }
+    first.push_back(motion.sample(0, 0).position);
+    EXPECT_EQ(motion.sample(1, 0).position, k < late ? 0 : first[k - late]) << k;
+    motion.advance(frame);
   }
 }
 
@@ -367,7 +383,8 @@ double furthestApart(const Clip& a, const Clip& b, double seconds) {
   double most = 0;
   for (double t = 0; t < seconds; t += 2e-4) {
     a.at(t, x), b.at(t, y);
-    most = std::max(most, std::abs(x[0] - y[0]));
+    const double apart = std::abs(x[0] - y[0]);
+    if (apart > most || std::isnan(apart)) most = apart;
   }
   return most;
 }

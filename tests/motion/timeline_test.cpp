@@ -66,7 +66,9 @@ double furthestOff(const Clip& clip, double frequency) {
   const auto spring = Trajectory::spring({0, 0}, 1, {frequency, 0.1});
   double most = 0;
   for (double t = 0; t < 1; t += 3e-4)
-    most = std::max(most, std::abs(weight(clip, t, "a") - spring->at(t - 0.1).position));
+    if (const double off = std::abs(weight(clip, t, "a") - spring->at(t - 0.1).position);
+        off > most || std::isnan(off))
+      most = off;
   return most;
 }
 
@@ -132,6 +134,18 @@ TEST(PlayedTimeline, SaysWhatItMissesWhereThereIsNoRoom) {
   EXPECT_LE(baked.clip.weights.size(), 400u);
   EXPECT_GT(baked.missed, 0.05);
   EXPECT_NEAR(baked.missed, furthestOff(baked.clip, 40), 0.03);
+}
+
+TEST(PlayedTimeline, HasNoMoreFramesWhereMoreThanAMillionEventsSetOut) {
+  const auto framesOf = [](int loops) {
+    Timeline timeline{1e-4, loops, {}};
+    const Drive swing{.kind = Drive::Kind::spring, .spring = {40, 0.1}};
+    timeline.events.push_back({0, {{"a", 1}}, false, "", swing});
+    timeline.events.resize(1000, {0, {}, false, "", {}});
+    return bakeToPlay(timeline, "rest", {})->clip.times.size();
+  };
+  EXPECT_GT(framesOf(1000), 25u);
+  EXPECT_EQ(framesOf(1001), 26u);
 }
 
 TEST(PlayedTimeline, SaysWhatItMissesOfSpringsQuickerThanItsFrames) {
@@ -213,19 +227,23 @@ TEST(Timeline, SendsWeightsOffNoMoreOftenThanAClipCanTell) {
 }
 
 TEST(Timeline, HasItsEventsInTheOrderOfTheirTimes) {
-  const auto bakes = [](std::vector<double> times, double seconds = 2, int loops = 1) {
+  const auto refusal = [](std::vector<double> times, double seconds = 2, int loops = 1) {
     Timeline timeline{seconds, loops, {}};
     for (const double time : times) timeline.events.push_back({time, {{"a", 1}}, false, {}, {}});
-    return bake(timeline, 60).has_value();
+    const auto clip = bake(timeline, 60);
+    return clip ? "" : clip.error().message;
   };
-  EXPECT_TRUE(bakes({}));
-  EXPECT_TRUE(bakes({0, 0, 0.5, 2}, 2, 3));
-  EXPECT_FALSE(bakes({1, 0.5}));
-  EXPECT_FALSE(bakes({-1}));
-  EXPECT_FALSE(bakes({2.1}));
-  EXPECT_FALSE(bakes({std::nan("")}));
-  EXPECT_FALSE(bakes({}, -1));
-  EXPECT_FALSE(bakes({0}, 2, 0));
+  EXPECT_EQ(refusal({}), "");
+  EXPECT_EQ(refusal({0, 0, 0.5, 2}, 2, 3), "");
+  const auto outOfOrder = [](int event) {
+    return "Event " + std::to_string(event) +
+           " of the timeline is before another or beyond the end; the events stand in the order of "
+           "their times.";
+  };
+  EXPECT_EQ(refusal({1, 0.5}), outOfOrder(1));
+  for (const double time : {-1.0, 2.1, std::nan("")}) EXPECT_EQ(refusal({time}), outOfOrder(0));
+  for (const std::string& message : {refusal({}, -1), refusal({0}, 2, 0)})
+    EXPECT_EQ(message, "A timeline lasts longer than 0 seconds and is played once at least.");
 }
 
 TEST(Timeline, IsToldFromACaptureByItsOwnKeys) {
@@ -313,11 +331,18 @@ TEST(Timeline, HoldsNoMoreGoalsThanAnyoneDraws) {
       << refused.error().message;
 }
 
-TEST(Timeline, BakingRefusesTooManyFrames) {
-  const auto timeline = parseTimeline(R"({"seconds": 1, "events": [{"at": 0, "to": {}}]})", "t");
-  ASSERT_TRUE(timeline);
-  EXPECT_FALSE(bake(*timeline, 0));
-  EXPECT_FALSE(bake(*timeline, 1e9));
+TEST(Timeline, HasOneToAMillionFrames) {
+  const auto refusal = [](double framesPerSecond) {
+    const auto clip = bake(Timeline{1, 1, {}}, framesPerSecond);
+    return clip ? "" : clip.error().message;
+  };
+  EXPECT_EQ(refusal(2e-6), "");
+  EXPECT_EQ(refusal(1e6), "");
+  EXPECT_EQ(refusal(5e-7),
+            "A timeline must last longer than a millionth of a frame; make it longer.");
+  for (const double framesPerSecond : {0.0, -1.0, std::nan(""), 1e6 + 1, 1e9})
+    EXPECT_EQ(refusal(framesPerSecond).find("A timeline has 1 to 1,000,000 frames"), 0u)
+        << framesPerSecond;
 }
 
 }  // namespace

@@ -176,6 +176,14 @@ TEST(Trajectory, BouncesLoseSpeedByTheirRestitution) {
   EXPECT_EQ(t.at(1e9).velocity, 0);
 }
 
+TEST(Trajectory, WhatIsTooQuickToFallTowardsItsGoalStopsThere) {
+  const Trajectory t = made(Trajectory::bounce({0, 3}, 1, 0.5, 0.6));  // it arrives at speed 1
+  for (const double time : {0.6, 10.0}) {
+    EXPECT_EQ(t.at(time).position, 1) << time;
+    EXPECT_EQ(t.at(time).velocity, 0) << time;
+  }
+}
+
 TEST(Trajectory, BouncesNeverPassTheirGoal) {
   Random random;
   for (int i = 0; i < 500; ++i) {
@@ -194,12 +202,13 @@ TEST(Trajectory, ABlowIsSlowedByDrag) {
     const Kinematics wanted = integrate([&](Real, Real, Real v) { return -drag * v; },
                                         {start.position, start.velocity + impulse}, time);
     expectNear(t.at(time), wanted, 20, 1e-11);
+    EXPECT_NEAR(t.at(time).acceleration, -drag * wanted.velocity, 1e-9);
   }
 }
 
 TEST(Trajectory, PeriodicForcesAgreeWithIntegrationAndArrive) {
   Random random;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 25; ++i) {
     std::array<Harmonic, 4> harmonics;
     for (Harmonic& h : harmonics) h = {random(-9, 9), random(-9, 9)};
     const Start start{random(-1, 1), random(-2, 2)};
@@ -219,6 +228,7 @@ TEST(Trajectory, PeriodicForcesAgreeWithIntegrationAndArrive) {
       return sum;
     };
     expectNear(t.at(time), integrate(force, start, time), 100, 1e-11);
+    EXPECT_NEAR(t.at(time).acceleration, static_cast<double>(force(time, 0, 0)), 1e-11);
   }
 }
 

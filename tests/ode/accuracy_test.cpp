@@ -1,3 +1,4 @@
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <iostream>
@@ -117,7 +118,8 @@ Largest compare(const SweepBasis& basis, const Equation& e) {
       const auto g = basis.at(u, order);
       for (int i = 0; i < 6; ++i) {
         const auto keep = [](double& x, const auto& y) {
-          x = std::max(x, std::abs(y.template convert_to<double>()));
+          const double size = std::abs(y.template convert_to<double>());
+          if (size > x || std::isnan(size)) x = size;
         };
         keep(largest.value[order][i], expected[order][i]);
         keep(largest.error[order][i],
@@ -135,7 +137,8 @@ double worstError(const SweepBasis& basis, const Equation& e) {
   double worst = 0;
   for (int order = 0; order < 4; ++order)
     for (int i = 0; i < 6; ++i)
-      if (const double error = largest.error[order][i] / largest.value[order][i]; !(error <= worst))
+      if (const double error = largest.error[order][i] / largest.value[order][i];
+          error > worst || std::isnan(error))
         worst = error;
   return worst;
 }

@@ -106,8 +106,10 @@ TEST(Roots, thatOscillateFasterThanTheGridAreRefused) {
 }
 
 TEST(Parameters, thatMakeNoEquationAreRefused) {
-  EXPECT_FALSE(SweepBasis::make({0, 1, 1}));
-  EXPECT_FALSE(TangentBasis::make({1, 0, 1}));
+  EXPECT_EQ(SweepBasis::make({0, 1, 1}).error().message,
+            "rho must not be zero: it leads the sixth-order equation.");
+  EXPECT_EQ(TangentBasis::make({1, 0, 1}).error().message,
+            "eta must not be zero: it leads the fourth-order equation.");
   for (const double bad : {std::nan(""), infinity, -infinity}) {
     EXPECT_FALSE(SweepBasis::make({bad, 1, 1}));
     EXPECT_FALSE(SweepBasis::make({1, bad, 1}));

@@ -83,11 +83,12 @@ TEST(FaceScenes, FindWhatATargetMoves) {
     for (Vec3& v : p) v.z += std::exp(-0.5 * ((v.x - x) * (v.x - x) + (v.y - y) * (v.y - y)));
     return p;
   };
-  source.targets = {{"mouthOpen", raised(2, 2)}, {"eyeBlink_L", raised(9, 8)}};
+  source.targets = {
+      {"mouthOpen", raised(2, 2)}, {"eyeBlink_L", raised(9, 8)}, {"mouthFollower", raised(9, 2)}};
   const Rig rig = converted(source);
   const FaceScenes scenes(rig, 1);
-  const auto rest = scenes.points(Weights(2, 0.0));
-  const auto mouth = scenes.region("MOUTH");
+  const auto rest = scenes.points(Weights(3, 0.0));
+  const auto mouth = scenes.region("MOUTH", 2);
   ASSERT_TRUE(mouth.has_value());
   EXPECT_GE(mouth->size(), 3u);
   for (const Index v : *mouth) EXPECT_LE(norm(rest[v] - Vec3{2, 2, rest[v].z}), 1.5);
@@ -291,8 +292,13 @@ TEST(HeatMaps, ShowAnglesOfNormals) {
 // ---- Styles and materials ----
 
 TEST(Styles, HaveNames) {
+  const std::map<Style, std::string_view> names{
+      {Style::shaded, "shaded"},   {Style::patches, "patches"}, {Style::wireframe, "wireframe"},
+      {Style::joins, "joins"},     {Style::error, "error"},     {Style::angle, "angle"},
+      {Style::normals, "normals"}, {Style::zebra, "zebra"}};
   for (const Style style : styles) {
-    EXPECT_EQ(styleFromName(nameOf(style)).value(), style);
+    EXPECT_EQ(nameOf(style), names.at(style));
+    EXPECT_EQ(styleFromName(names.at(style)).value(), style);
   }
   EXPECT_TRUE(failsWith(styleFromName("shiny"), {"'shiny'", "zebra"}));
 }

@@ -67,6 +67,8 @@ class Clips(FaceTest):
             self.clip().renamed({"tail": {"jawOpen": 2000}}, self.rig)
         with self.refuses("a name, a list of names, a dict of numbers, or None"):
             self.clip().renamed({"tail": 5}, self.rig)
+        with self.assertRaisesRegex(ValueError, "Names are empty"):
+            self.clip().renamed({}, self.rig)
         several = self.clip().renamed({"JawOpen": ["jawOpen", "eyeBlinkLeft"], "browInnerUp": None}, self.rig)
         self.assertEqual([np.count_nonzero(row) for row in several.weights_of(self.rig, [0.5])], [2])
 

@@ -71,6 +71,19 @@ TEST(Bulge, putsTheMiddleOnTheArc) {
   }
 }
 
+// With arms of length 1 the middle of both lies at the cosine of half the angle.
+TEST(Bulge, fadesOutTowardsAThirdOfAFullTurn) {
+  const auto bulgeAt = [](double degrees) {
+    const Vec3 from{1, 0, 0};
+    return norm(bulge({0, {}, {0, 0, 1}}, from, turnedAboutZ(from, {}, degrees)));
+  };
+  const double full = 1 - std::cos(50 * std::numbers::pi / 180);
+  EXPECT_GT(bulgeAt(100), 0.1 * full);
+  EXPECT_LT(bulgeAt(100), 0.9 * full);
+  for (int degrees = 50; degrees < 121; ++degrees)
+    EXPECT_NEAR(bulgeAt(degrees + 1), bulgeAt(degrees), 0.01) << degrees;
+}
+
 TEST(Bulge, aboutAPointKeepsTheMeanDistance) {
   const Turn turn{0, {1, 0, 0}, {}};
   const Vec3 from{3, 1, 0}, to{2.8, 1, 1.2};

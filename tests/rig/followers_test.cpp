@@ -28,6 +28,16 @@ TEST(FollowerNames, productsOfMoreAreOfTheSimplest) {
                                                             {Kind::product, 4, {0, 1, 2}, 0}}));
 }
 
+TEST(FollowerNames, ofMoreThanTwelveUnderscoresSayNothing) {
+  const auto followersOf = [](int underscores) {
+    std::string second = "B";
+    for (int k = 1; k < underscores; ++k) second += "_B";
+    return Followers::named(std::vector<std::string>{"A", second, "A_" + second});
+  };
+  EXPECT_EQ(followersOf(12), (std::vector<Follower>{{Kind::product, 2, {0, 1}, 0}}));
+  EXPECT_TRUE(followersOf(13).empty());
+}
+
 TEST(FollowerNames, numbersAreInBetweens) {
   const std::vector<std::string> names{"blink_L", "blink_L_50", "blink_L25", "blink_L.75"};
   EXPECT_EQ(Followers::named(names), (std::vector<Follower>{{Kind::inBetween, 1, {0}, 0.5},

@@ -136,6 +136,24 @@ TEST(Regions, ALineOfOnePointIsThatPoint) {
   EXPECT_EQ(painted(hill(), line), painted(hill(), point));
 }
 
+TEST(Regions, ThroughSpaceACurveIsALineOfFourPiecesPerEdge) {
+  const auto vectors = blend(ball(), {});
+  const auto& arcs = ball().surface.wireframe().arcs;
+  for (Index a = 0; a < std::ssize(arcs); ++a) {
+    Brush curve;
+    curve.curves = {"c" + std::to_string(a)};
+    curve.whole = 1e-9, curve.fade = 6, curve.alongSurface = false;
+    Brush line = curve;
+    line.curves.clear();
+    for (Index k = 0; k <= 4 * arcs[a].edges; ++k)
+      line.line.push_back(ball().surface.pointOnArc(vectors, a, k / 4.0));
+    const auto shares = painted(ball(), curve);
+    EXPECT_EQ(shares[arcs[a].from], 1) << a;
+    EXPECT_EQ(shares[arcs[a].to], 1) << a;
+    EXPECT_EQ(shares, painted(ball(), line)) << a;
+  }
+}
+
 // Two nearly coincident sheets, a twentieth of an edge apart.
 TEST(Regions, CurvesReachAlongTheSurfaceAlone) {
   const Rig rig = converted(joined(plane(6, 5), plane(6, 5), {0.02, 0.02, 0.05}));
@@ -374,6 +392,8 @@ TEST(Regions, RefuseWhatCannotBe) {
   EXPECT_TRUE(refuses({{"a", {}, std::vector(nodes, std::nan(""))}}));
   EXPECT_TRUE(refuses({{"a", {0, 1, 0}, all}}));
   EXPECT_TRUE(refuses({{"a", {1, 1, -1}, all}}));
+  EXPECT_TRUE(refuses({{"a", {1, 1, 61}, all}}));
+  EXPECT_FALSE(refuses({{"a", {1, 1, 60}, all}}));
   const auto nowhere = paint(hill(), Brush{});
   ASSERT_FALSE(nowhere);
   EXPECT_NE(nowhere.error().message.find("says nowhere where it is"), std::string::npos);
@@ -497,6 +517,22 @@ TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
     // The whole targets themselves are unchanged.
     EXPECT_EQ(rig.targets[0], before.targets[0]);
   }
+}
+
+TEST(Regions, ATargetThatMovesOneRegionHasTheWeightOfThatRegion) {
+  Rig rig = makeRig(twoPatches());
+  for (Index v = 0; v < rig.surface.storedCount(); ++v)
+    rig.targets[0].difference[v] = {rig.surface.stored(v).node == 0 ? 1.0 : 0, 0, 0};
+  const std::vector<Region> regions{{"rest", {}, {0, 0, 1, 1, 1, 1}},
+                                    {"a", {}, {0, 1, 0, 0, 0, 0}},
+                                    {"b", {}, {1, 0, 0, 0, 0, 0}}};
+  const std::size_t count = rig.targets.size();
+  const auto targets = RegionalTargets::addTo(rig, regions, std::vector<Index>{0});
+  ASSERT_EQ(rig.targets.size(), count) << "it needs no parts";
+  std::vector<double> weights(regions.size() * count), all(count);
+  weights[0] = 0.25, weights[count] = 0.5, weights[2 * count] = 0.75;
+  targets.spread(weights, all);
+  EXPECT_EQ(all[0], 0.75);
 }
 
 TEST(Regions, PartsThatNobodySeesMoveAreLeftOut) {

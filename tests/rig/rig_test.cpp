@@ -52,8 +52,10 @@ TEST(WeightText, refusesWhatItDoesNotKnowAndSaysWhatThereIs) {
   EXPECT_TRUE(list.ends_with("t, t, ...")) << list;
 }
 
-TEST(WeightText, refusesWhatIsNoFiniteNumber) {
-  for (const char* text : {"nan", "inf", "-inf", "1e999", "", "1x", "1 1", "0x1", "1.5.2"})
+TEST(WeightText, refusesWhatIsNoNumberWithinAMillion) {
+  EXPECT_EQ(refusal(named(), "jawOpen=1000000,rest=-1000000"), "");
+  for (const char* text :
+       {"1000001", "-1000001", "nan", "inf", "-inf", "1e999", "", "1x", "1 1", "0x1", "1.5.2"})
     EXPECT_EQ(refusal(named(), std::string("jawOpen=") + text),
               std::string("The weight of 'jawOpen' must be a number within ±1,000,000, not '") +
                   text + "'.");

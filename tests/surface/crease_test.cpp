@@ -56,6 +56,7 @@ TEST_P(Creases, breakTheNormalAndNothingElse) {
     EXPECT_EQ(joins[a].joinClass == JoinClass::crease, isCrease) << "arc " << a;
     if (isCrease) {
       EXPECT_GT(joins[a].firstJump, 0.01) << "arc " << a;
+      EXPECT_GT(joins[a].normalJump, 0.01) << "arc " << a;
     }
     if (joins[a].joinClass == JoinClass::c2) {
       EXPECT_LE(joins[a].firstJump, 1e-9) << "arc " << a;

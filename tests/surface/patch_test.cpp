@@ -1,3 +1,7 @@
+#include <numbers>
+
+#include "sweepface/fit.hpp"
+
 #include "surface/surfaces.hpp"
 
 namespace sweepface {
@@ -233,6 +237,25 @@ TEST(Settling, worksInPlaceOrBeside) {
   std::vector<Vec3> beside(surface.vectorCount());
   surface.settle(stored, beside);
   EXPECT_EQ(beside, pose);
+}
+
+TEST(Normal, ofASphereIsUprightAtItsPoles) {
+  ConvertOptions options;
+  options.tolerance = 0.01;
+  options.chooseShapes = false;
+  const Rig rig = convert(MeshRig{uvSphere(), {}}, options).value().rig;
+  const auto pose = blend(rig, {});
+  int poles = 0;
+  for (Index p = 0; p < rig.surface.patchCount(); ++p)
+    for (const Site& s : sitesOf(rig.surface, p)) {
+      const Vec3 place = rig.surface.evaluate(pose, s);
+      if (std::hypot(place.x, place.y) > 1e-2) continue;
+      ++poles;
+      const Vec3 n = rig.surface.normal(pose, s);
+      EXPECT_LT(std::hypot(n.x, n.y), std::sin(0.2 * std::numbers::pi / 180)) << p;
+      EXPECT_GT(n.z * place.z, 0) << p;
+    }
+  EXPECT_GT(poles, 1);
 }
 
 TEST(Normal, isFiniteAndOfUnitLengthAtAPole) {

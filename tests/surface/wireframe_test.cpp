@@ -355,8 +355,8 @@ Wireframe slices(Index size) {
 
 // Tables for evaluation take as long as there are vectors behind a vertex.
 TEST(Derivations, areRefusedWhereTheyGoOnAndOn) {
-  EXPECT_EQ(refusal(slices(20)), "");
-  const std::string why = refusal(slices(60));
+  EXPECT_EQ(refusal(slices(33)), "");
+  const std::string why = refusal(slices(34));
   EXPECT_NE(why.find("take too many steps: nodes on sides stand on each other's"),
             std::string::npos)
       << why;

@@ -1,3 +1,4 @@
+#include "sweepface/box.hpp"
 #include "sweepface/usd.hpp"
 
 #include "gltf/written.hpp"
@@ -50,6 +51,8 @@ TEST_P(EveryUsdFace, HoldsTheSurfaceInSinglePrecision) {
   const Layer layer = layerOf(rig);
   const std::vector<Vec3> neutral = surfacePositions(rig);
   expectSingle(pointsOf(layer), neutral);
+  const Box box(pointsOf(layer));
+  EXPECT_EQ(layer.vectors(kMesh + ".float3[] extent"), (std::vector<Vec3>{box.low, box.high}));
   expectNear(normalsOf(layer), surfaceNormals(rig), 1e-6);
   for (std::size_t k = 0; k < rig.targets.size(); ++k)
     expectNear(sum(pointsOf(layer), added(layer, rig.targets[k].name)),
@@ -118,14 +121,16 @@ TEST(UsdWriter, KeepsToABudget) {
 }
 
 TEST(UsdWriter, KeepsAShapeThatMovesNothing) {
-  Rig rig = grid();
-  rig.targets[0].difference.assign(rig.targets[0].difference.size(), {});
   UsdOptions options;
   options.morphNormals = true;
-  const Layer layer = layerOf(rig, options);
-  EXPECT_EQ(layer.value(kMesh + "/smile.uniform int[] pointIndices"), "[0]");
-  EXPECT_EQ(layer.value(kMesh + "/smile.uniform vector3f[] offsets"), "[(0, 0, 0)]");
-  EXPECT_EQ(layer.value(kMesh + "/smile.uniform vector3f[] normalOffsets"), "[(0, 0, 0)]");
+  for (const double size : {0.0, 1e-9}) {  // less than single precision tells from its points
+    Rig rig = grid();
+    for (Vec3& v : rig.targets[0].difference) v *= size;
+    const Layer layer = layerOf(rig, options);
+    EXPECT_EQ(layer.value(kMesh + "/smile.uniform int[] pointIndices"), "[0]");
+    EXPECT_EQ(layer.value(kMesh + "/smile.uniform vector3f[] offsets"), "[(0, 0, 0)]");
+    EXPECT_EQ(layer.value(kMesh + "/smile.uniform vector3f[] normalOffsets"), "[(0, 0, 0)]");
+  }
 }
 
 TEST(UsdWriter, LeavesOutFacesOfTwoCornersAndFillsInTexture) {
@@ -203,8 +208,11 @@ TEST(UsdWriter, TurnsTheHeadAboutItsPivot) {
   EXPECT_EQ(layer.samples(kAnimation).at(1),
             (std::pair<std::string, std::string>{"24", "[(0.8, 0.6, 0, 0)],"}));
   EXPECT_EQ(layer.value(kAnimation + ".float3[] translations"), "[(1, 2, 3)]");
-  EXPECT_EQ(layer.value("/face/skeleton.uniform matrix4d[] bindTransforms"),
-            "[((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 2, 3, 1))]");
+  for (const char* transforms : {"bindTransforms", "restTransforms"})
+    EXPECT_EQ(layer.value(std::string("/face/skeleton.uniform matrix4d[] ") + transforms),
+              "[((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 2, 3, 1))]");
+  EXPECT_EQ(layer.value(".startTimeCode"), "0");
+  EXPECT_EQ(layer.value(".endTimeCode"), "24");
   EXPECT_EQ(layer.numbers(kMesh + ".float[] primvars:skel:jointWeights"),
             std::vector<double>(pointsOf(layer).size(), 1));
 }
@@ -215,10 +223,17 @@ TEST(UsdWriter, SaysHowLongAUnitIsAndWhatIsUp) {
     return layerOf(rig, options).value(".metersPerUnit");
   };
   EXPECT_EQ(metres(), "0.01");
-  rig.names.units = "mm";
-  EXPECT_EQ(metres(), "0.001");
-  rig.names.units = "furlongs";
-  EXPECT_EQ(metres(), "0.01");
+  for (const auto& [units, length] : {std::pair{"mm", "0.001"},
+                                      {"cm", "0.01"},
+                                      {"dm", "0.1"},
+                                      {"m", "1"},
+                                      {"km", "1000"},
+                                      {"in", "0.0254"},
+                                      {"ft", "0.3048"},
+                                      {"furlongs", "0.01"}}) {
+    rig.names.units = units;
+    EXPECT_EQ(metres(), length) << units;
+  }
   UsdOptions options;
   options.metersPerUnit = 0.1, options.zUp = true;
   EXPECT_EQ(metres(options), "0.1");
@@ -286,6 +301,9 @@ TEST(UsdWriter, RefusesClipsThatDoNotFit) {
   UsdOptions options;
   options.head = &head;
   EXPECT_TRUE(failsWith(formatUsd(rig, options), {"head's rotation"}));
+  const HeadTrack soon{{0, 1e-9}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {}};
+  options.head = &soon;
+  EXPECT_TRUE(failsWith(formatUsd(rig, options), {"a time code apart"}));
 }
 
 }  // namespace

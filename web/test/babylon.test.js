@@ -122,6 +122,14 @@ test('materials that it made go with the last mesh that shows them', options, as
   assert.deepEqual(scene.materials, [mine]);
 });
 
+test('a material that it made stays while another has it as a part', options, async () => {
+  const {scene, mesh} = await load(), {MultiMaterial} = await import(`${core}/Materials/multiMaterial.js`);
+  const [skin] = mesh.material.subMaterials, other = new MultiMaterial('other', scene);
+  other.subMaterials = [skin];
+  mesh.dispose();
+  assert.deepEqual(scene.materials, [skin]);
+});
+
 test('a scene is not ready before the face is there', options, async () => {
   const {scene, SweepfaceMesh} = await load();
   const loading = SweepfaceMesh.load(readFileSync(sample), scene);
@@ -181,18 +189,29 @@ test('clones move by themselves and share the material', options, async () => {
 
 test('clones are like those of other meshes', options, async () => {
   const {scene, mesh} = await load(), {Mesh} = await import(`${core}/Meshes/mesh.js`);
-  const {Vector3} = await import(`${core}/Maths/math.vector.js`);
+  const {Quaternion, Vector3} = await import(`${core}/Maths/math.vector.js`);
   const head = new Mesh('head', scene), hat = new Mesh('hat', scene);
   mesh.parent = head;
   hat.parent = mesh;
-  Object.assign(mesh, {receiveShadows: true, isPickable: false, renderingGroupId: 2, advancesWithScene: false});
+  const own = {receiveShadows: true, isPickable: false, renderingGroupId: 2, advancesWithScene: false, isVisible: false,
+               visibility: 0.5, layerMask: 3, alphaIndex: 7, billboardMode: 2, checkCollisions: true,
+               alwaysSelectAsActiveMesh: true, metadata: {mine: 1}};
+  Object.assign(mesh, own);
+  mesh.rotation.set(0.1, 0.2, 0.3);
+  mesh.scaling.set(1, 2, 3);
   mesh.setPivotPoint(new Vector3(1, 2, 3));
+  mesh.setEnabled(false);
   const twin = mesh.clone('twin'), bald = mesh.clone('bald', null, true);
   assert.deepEqual([twin, bald].map(({parent}) => parent), [head, head]);
   assert.deepEqual([twin, bald].map((clone) => clone.getChildren().map(({name}) => name)), [['twin.hat'], []]);
-  assert.deepEqual([twin.receiveShadows, twin.isPickable, twin.renderingGroupId, twin.advancesWithScene], [true, false, 2, false]);
+  assert.deepEqual(Object.fromEntries(Object.keys(own).map((key) => [key, twin[key]])), own);
+  assert.deepEqual([twin.rotation.asArray(), twin.scaling.asArray()], [[0.1, 0.2, 0.3], [1, 2, 3]]);
   assert.deepEqual(twin.getPivotPoint().asArray(), [1, 2, 3]);
-  for (const face of [twin, bald]) face.dispose();
+  assert.equal(twin.isEnabled(false), false);
+  mesh.rotationQuaternion = Quaternion.FromEulerAngles(0.1, 0.2, 0.3);
+  const turned = mesh.clone('turned').rotationQuaternion;
+  assert.ok(turned !== mesh.rotationQuaternion && turned.equals(mesh.rotationQuaternion));
+  for (const face of head.getChildren().slice(1)) face.dispose();
   const [face] = head.clone('other').getChildren();
   assert.equal(face.getClassName(), 'SweepfaceMesh');
   assert.equal(face.getChildren().length, 1);
@@ -216,6 +235,12 @@ test('cuts show at once, also where time stands still', options, async () => {
   assert.deepEqual([mesh.weights.jawOpen, mesh.weights.browInnerUp], [1, 0]);
   assertShows(mesh);
   assert.ok(mesh.advance(0.1));
+});
+
+test('a mesh makes ready to move', options, async () => {
+  const {mesh} = await load(), before = mesh.face.memoryBytes;
+  mesh.prepare();
+  assert.ok(mesh.face.memoryBytes > before);
 });
 
 test('a geometry of other vertices is refused with a sentence', options, async () => {
@@ -263,11 +288,27 @@ test('a mesh has the name of its file', options, async (context) => {
   assert.equal(await nameOf(new URL('https://example.org/a/smile.sweep?version=1/2#b')), 'smile.sweep');
   assert.equal(await nameOf('blob:https://example.org/0-1'), 'face');
   assert.equal(await nameOf('data:application/octet-stream;base64,AA/BB'), 'face');
+  context.mock.method(globalThis, 'fetch', async () => new Response('GIF'));
+  await assert.rejects(nameOf('http://a/faces/bad.sweep?key=1'), /^Error: http:\/\/a\/faces\/bad\.sweep does not begin/);
+});
+
+test('a load has the options of then', options, async (context) => {
+  const {scene, SweepfaceMesh} = await load(), regions = [{name: 'chin', points: [[0, -9, 9]], fade: 7}];
+  context.mock.method(globalThis, 'fetch', async () => new Response(readFileSync(sample)));
+  const loading = SweepfaceMesh.load('http://a/face.sweep', scene, {regions});
+  regions[0].name = 'nose';
+  assert.deepEqual((await loading).regions, ['rest', 'chin']);
 });
 
 test('a mesh that is disposed of is forgotten', options, async () => {
   const {scene, mesh} = await load();
+  const watched = [scene.onAfterAnimationsObservable, scene.onBeforeRenderTargetsRenderObservable];
+  const count = () => watched.map(({observers}) => observers.length);
+  assert.deepEqual(count(), [1, 1]);
   mesh.dispose();
+  await new Promise((resolve) => setTimeout(resolve));  // Babylon.js may take its time
+  assert.deepEqual(count(), [0, 0]);
+  assert.ok(watched.every((observable) => !observable.hasObservers()));
   assert.throws(() => mesh.setWeights({jawOpen: 1}), /disposed of/);
   scene.render();
   mesh.update(1);
@@ -280,14 +321,17 @@ test('faces have regions and eyes', options, async () => {
   const regions = [{name: 'chin', points: [[0, -9, 9]], fade: 7}], {scene, mesh} = await load({regions, eyes: true});
   assert.deepEqual([mesh.regions, mesh.eyeCount], [['rest', 'chin'], 2]);
   const before = positionsOf(mesh);
-  mesh.look({leftEye: {yaw: 0.3}});
+  const pose = {leftEye: {yaw: 0.3}, rightEye: {}};
+  mesh.look(pose);
   scene.render();
   assert.notDeepEqual(positionsOf(mesh), before);
   mesh.setWeights({jawOpen: 1}, 'chin');
   assert.deepEqual([mesh.weightsIn('chin').jawOpen, mesh.weightsIn('rest').jawOpen], [1, 0]);
   const twin = mesh.clone();
   assert.deepEqual([twin.weightsIn('chin').jawOpen, twin.weightsIn('rest').jawOpen], [1, 0]);
-  assert.deepEqual(twin.pose, mesh.pose);
+  assert.deepEqual([mesh.pose, twin.pose], [pose, pose]);
+  mesh.moveTo({jawOpen: 0.5}, 'cut', 'chin');
+  assert.deepEqual([mesh.weightsIn('chin').jawOpen, mesh.weightsIn('rest').jawOpen], [0.5, 0]);
 });
 
 test('what is no face is refused', options, async () => {

@@ -164,6 +164,8 @@ test('clocks between whole rates go slower, and those that drop frames skip them
     readClip(`Timecode,a\n0:0:0${mark}0,0\n1:0:0${mark}0,0\n`, {framesPerSecond}).seconds;
   assert.ok(Math.abs(hour(':', 29.97) - 3603.6) < 1e-6);
   for (const rate of [29.97, 30, 59.94, 60]) assert.ok(Math.abs(hour(';', rate) - 3599.9964) < 1e-6, `${rate}`);
+  const midnight = readClip('Timecode,a\n23:59:59:0,0\n0:0:0:0,0\n', {framesPerSecond: 29.97});
+  assert.ok(Math.abs(midnight.seconds - 1.001) < 1e-6);
   for (const rate of [0, -1, NaN, Infinity, '30'])
     assert.throws(() => hour(':', rate), {name: 'RangeError', message: /greater than 0/});
 });
@@ -175,6 +177,33 @@ test('frames of MediaPipe may lack a face or a name, and the neutral is none', (
   assert.deepEqual(clip.names, ['a', 'b']);
   assert.deepEqual([...clip.weights], [0.5, 0, 0, 0.25, 0, 0.25]);
   assert.match(clip.warnings[0], /frames are 6000 ms apart/);
+});
+
+test('frames of MediaPipe tell how the head turns', () => {
+  const [yaw, pitch, roll] = [0.5, -0.3, 0.2], [sy, sp, sr] = [yaw, pitch, roll].map(Math.sin);
+  const [cy, cp, cr] = [yaw, pitch, roll].map(Math.cos);
+  const rows = [[cy * cr + sy * sp * sr, sy * sp * cr - cy * sr, sy * cp, 1], [cp * sr, cp * cr, -sp, 2],
+                [cy * sp * sr - sy * cr, sy * sr + cy * sp * cr, cy * cp, 3], [0, 0, 0, 1]];
+  const frame = (transform) => ({timestamp: 0, categories: [{categoryName: 'a', score: 1}], ...transform});
+  const read = (transform) => readClip(JSON.stringify([frame(transform)]), {name: 'take.json'});
+  const data = [0, 1, 2, 3].flatMap((c) => rows.map((row) => row[c]));
+  for (const clip of [read({facialTransformationMatrixes: [{rows: 4, columns: 4, data}]}),
+                      read({facial_transformation_matrixes: [rows]})]) {
+    assert.deepEqual(clip.names, ['HeadPitch', 'HeadRoll', 'HeadYaw', 'a']);
+    [pitch, -roll, -yaw, 1].forEach((angle, k) => assert.ok(Math.abs(clip.weights[k] - angle) < 1e-12, clip.names[k]));
+    assert.deepEqual(clip.warnings, []);
+  }
+  for (const none of [{}, {facialTransformationMatrixes: []}, {facialTransformationMatrixes: null}])
+    assert.deepEqual(read(none), read({}));
+  for (const wrong of [[5], {}, [[1, 2]], [{data: [1]}], [{data: rows}], [{data: data.map((x, k) => k < 4 ? 0 : x)}]]) {
+    const clip = read({facialTransformationMatrixes: wrong});
+    assert.deepEqual(clip.names, ['a']);
+    assert.match(clip.warnings[0], /^take.json: 1 of 1 frames have a transformation of the face that is no matrix of 4 × 4/);
+  }
+});
+
+test('headings may be of any case, and have quotes in them', () => {
+  assert.deepEqual(readClip('SEP=,\ntimecode,BLENDSHAPECOUNT,"a ""b"""\n0,52,1\n').names, ['a "b"']);
 });
 
 test('numbers may have a sign and an exponent', () => {
@@ -273,6 +302,7 @@ test('names are matched and reported', async () => {
   assert.deepEqual(matchNames(['eye.blink.left', 'jaw_l'], ['jawLeft', 'eyeBlinkLeft']).targets, [[1], [0]]);
   assert.deepEqual(matchNames(['jaw', 'mouth'], ['jawLeft', 'jawRight', 'mouthLeft', 'mouthRight']).targets, [[], []]);
   assert.deepEqual(matchNames(['jawOpen', 'jaw_open'], ['JawOpen', 'jawOpen']).targets, [[1], [0]]);
+  assert.deepEqual(matchNames(['_'], ['left', 'Right', '_L', '_R']).targets, [[]]);  // a side alone is a name
   assert.deepEqual(matchNames(['ÄUGE'], ['äuge']).unmatched, ['ÄUGE']);  // case is ignored for A to Z only
 });
 
@@ -291,6 +321,20 @@ test('a map of names drives what it drives in the tool', () => {
       if (!/^Head/.test(name))
         assert.ok(Math.abs(clip.weights[f * clip.names.length + k] - expected.weights[f * expected.names.length + targets[k][0]]) < 1e-12, name);
     });
+});
+
+test('a name of a map without a side takes the larger of both, and drives no side of a name that stays', () => {
+  const blink = readClip('Timecode,EyeBlinkLeft,EyeBlinkRight\n0,0.25,0.75\n').renamed({eyeBlink: 'mouthFunnel'});
+  assert.deepEqual([blink.names, [...blink.weights]], [['mouthFunnel'], [0.75]]);
+  const brow = readClip('Timecode,browInnerUp,jawOpen\n0,0.5,1\n').renamed({jawOpen: 'browInnerUpLeft'});
+  assert.deepEqual([brow.names, [...brow.weights]], [['browInnerUp', 'browInnerUpLeft'], [0.5, 1]]);
+});
+
+test('a map of names keeps what was told before', () => {
+  const clip = readClip('Timecode,a\n0,1\n0,2\n1,3\n'), {warnings} = clip;
+  assert.equal(warnings.length, 1);
+  assert.deepEqual(clip.renamed({a: 'b'}).warnings, warnings);
+  assert.deepEqual(clip.renamed({a: 'b', c: 'd'}).warnings, [...warnings, 'The clip has no c.']);
 });
 
 test('what is no map of names is refused', () => {
@@ -337,6 +381,7 @@ test('the head has the angles of the app', async () => {
   const [yaw, pitch, roll] = clip.at(0.1).slice(5);
   assert.deepEqual(new ClipPlayer(face, clip).seek(0.1), {yaw: -yaw, pitch, roll: -roll});  // the app is left-handed
   assert.equal(new ClipPlayer(face, readClip(audio2Face)).seek(0), null);
+  assert.deepEqual(new ClipPlayer(face, readClip('Timecode,HeadYaw,jawOpen\n0,0,1\n')).seek(0), {yaw: 0, pitch: 0, roll: 0});
   const spelt = new ClipPlayer(face, readClip('Timecode,head_yaw,Head Pitch,jawOpen\n0,0.25,0.5,1'));
   assert.deepEqual(spelt.seek(0), {yaw: -0.25, pitch: 0.5, roll: 0});
   assert.deepEqual(spelt.match.unmatched, []);
@@ -536,6 +581,7 @@ for (const [file, text, words] of [
        ['a.json', '{"weightMat": [[1]], "exportFps": 30, "facsNames": []}', 'has no list \'facsNames\' with names in it'],
        ['a.json', '[{"timestampMs": 0, "categories": [{"categoryName": "a", "score": 1e30}]}]', 'has a score in frame 0 that is not within'],
        ['a.json', '[{"timestampMs": 0, "categories": [{"categoryName": "a", "score": "x"}]}]', 'has a category without'],
+       ['a.json', '{"weightMat": [[1]], "exportFps": 30, "facsNames": [5]}', 'has a value in \'facsNames\' that is not a name'],
        ['a.csv', 'Timecode,a\n12:59:60:1,0\n', 'has more than 59 minutes or seconds'],
        ['a.csv', 'Timecode,a\n12:60:59:1,0\n', 'has more than 59 minutes or seconds'],
        ['a.csv', 'Timecode,a\n-00:00:01:00,0\n', '\'-00:00:01:00\' is not a timecode'],
@@ -559,8 +605,16 @@ for (const [file, text, words] of [
          const text = `{"seconds": 1, "loops": ${loops}, "events": []}`;
          return ['t.json', text, '\'loops\' must be a whole number from 1 to 10000'];
        }),
+       ['t.json', '{"seconds": "1", "events": []}', 'the file has a \'seconds\' that is not a number'],
+       ['t.json', '{"seconds": 1, "loops": "2", "events": []}', 'the file has a \'loops\' that is not a number'],
        ['t.json', '{"seconds": 1, "speed": 1, "events": []}', 'the file has an unknown key \'speed\''],
        ['t.json', '{"seconds": 1, "events": [{"to": {}}]}', 'events[0] has no \'at\''],
+       ['t.json', '{"seconds": 1, "events": [null]}', 'events[0] is not an object'],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": 5}]}', 'events[0] goes neither to weights nor to a pose'],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "ease": 1}]}', 'events[0] has an unknown key \'ease\''],
+       ...[['"at": "0"', '\'at\' that is not a number'], ['"at": 0, "damping": "1"', '\'damping\' that is not a number'],
+           ['"at": 0, "drive": null', '\'drive\' that is not a text'], ['"at": 0, "region": 5', '\'region\' that is not a text']]
+         .map(([odd, words]) => ['t.json', `{"seconds": 1, "events": [{"to": {}, ${odd}}]}`, `events[0] has a ${words}`]),
        ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', 'events[0] is later than \'seconds\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "delay": 1.5}]}', 'so that it never plays'],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "seconds": 1.5}]}',

@@ -70,6 +70,12 @@ test('a clip moves the eyes by its weights after another whose angles did', asyn
   assert.equal(difference(positionsOf(other), positionsOf(face)).most, 0);
 });
 
+test('an eye without angles looks ahead where the other has some', () => {
+  const looks = [], face = {names: [], eyeCount: 2, setWeights() {}, look: (pose) => looks.push(pose)};
+  new ClipPlayer(face, readClip('Timecode,LeftEyeYaw\n0,-0.5\n')).seek(0);
+  assert.deepEqual(looks, [{leftEye: {yaw: 0.5, pitch: 0, roll: 0}, rightEye: {}}]);
+});
+
 test('names of weights for the eyes may be spelt in any way', () => {
   const looks = [], face = {names: ['eye_look_down'], eyeCount: 2, setWeights() {}, look: (pose) => looks.push(pose)};
   new ClipPlayer(face, readClip('Timecode,eyeLookDown\n0,1\n')).seek(0);

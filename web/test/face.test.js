@@ -6,6 +6,7 @@ import test from 'node:test';
 import {setFlagsFromString} from 'node:v8';
 import {runInNewContext} from 'node:vm';
 import {Sweepface} from '../sweepface.js';
+import {twinOf} from '../sweepface_twin.js';
 import {difference, everyFile, exported, packed, played, sample, someWeights, withArcs} from './native.js';
 
 const load = (options, file = sample) => Sweepface.load(readFileSync(file), options);
@@ -178,6 +179,12 @@ test('weights move by springs and are interrupted without a jump', async () => {
   assert.ok(Math.max(...steps) < 0.1);
 });
 
+test('a cut may wait', async () => {
+  const face = await load();
+  face.moveTo({jawOpen: 1}, {kind: 'cut', delay: 0.5});
+  assert.deepEqual([0.4, 0.2].map((seconds) => (face.advance(seconds), face.weights.jawOpen)), [0, 1]);
+});
+
 test('a motion says when it is over', async () => {
   const face = await load();
   assert.equal(face.advance(0.1), false);
@@ -279,8 +286,8 @@ test('setting a weight ends its motion, and its alone', async () => {
 
 test('a push moves a weight until drag stops it', async () => {
   const face = await load();
-  for (const [way, end] of [[1, 0.5], [-1, 0]]) {
-    face.push('jawOpen', 2 * way, 4);
+  for (const [velocity, drag, end] of [[2, 4, 0.5], [-2, 4, 0], [2, undefined, 0.25]]) {
+    face.push('jawOpen', velocity, drag);
     for (const seconds of [0, 5]) assert.equal(face.advance(seconds), true);
     assert.ok(Math.abs(face.weights.jawOpen - end) < 1e-6);
     assert.equal(face.advance(1), false);
@@ -306,6 +313,20 @@ test('faces that nobody disposed of are freed with what refers to them', async (
   }
   assert.ok(kept.memoryBytes < before + 100 * 24 * kept.vertexCount, `${kept.memoryBytes - before} bytes more`);
   assert.equal(kept.weights.jawOpen, 0);
+});
+
+test('a face that was disposed of is not freed once more when it is collected', async () => {
+  setFlagsFromString('--expose-gc');
+  const collect = runInNewContext('gc'), kept = await load(), other = await load();
+  for (let k = 0; k < 20; ++k) kept.clone().dispose();
+  for (let k = 0; k < 3; ++k) {
+    collect();
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+  const made = Array.from({length: 5}, () => kept.clone());
+  for (const face of [kept, other]) face.setWeights({jawOpen: 1});
+  assert.deepEqual(evaluate(kept), evaluate(other));
+  assert.ok(made.every((face) => face.weights.jawOpen === 0));
 });
 
 test('faces of one file share it and are disposed of one by one', async () => {
@@ -442,6 +463,14 @@ test('a packed face needs the usual module only, with all that is played', async
   for (const options of [{eyes: true}, {arcs: true}, {combine: true}, {vertices: 500}, {edgeLength: 1}, {error: 1},
                          {regions: [{name: 'a', parts: ['lips']}]}])
     await assert.rejects(load({wasm, ...options}, file), {message: /give sweepface_full.wasm/});
+});
+
+test('a packed face has eyes, combinations, arcs and regions, too', async () => {
+  const regions = [{name: 'above', points: [[0, 8, 9]], over: 'space', whole: 5}];
+  for (const key of ['eyes', 'combine', 'arcs']) {
+    const face = await load({[key]: true, regions}, packed());
+    assert.deepEqual([face.eyeCount, face.regions], [key === 'eyes' ? 2 : 0, ['rest', 'above']]);
+  }
 });
 
 test('a spring without a damper never rests', async () => {
@@ -632,7 +661,7 @@ test('a packed face shows its neutral before it reads what targets do', async ()
     for (let twice = 0; twice < 2; ++twice) assert.throws(move, /^Error: The face: what its targets do cannot be read; convert/);
   assert.equal(face.advance(0.1), false);
   face.setWeights({});
-  assert.deepEqual(evaluate(face), evaluate(whole));
+  for (const each of [face, twinOf(face)]) assert.deepEqual(evaluate(each), evaluate(whole));
   face.dispose();
 });
 

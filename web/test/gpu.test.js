@@ -351,7 +351,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
             draw();
             for (const k of order) {
               // Or the geometry alone, as code that clears scenes does: it is drawn again all the same.
-              if (isWhole) scene.remove(meshes[k]), meshes[k].dispose();
+              if (isWhole) for (let twice = 0; twice < 2; ++twice) scene.remove(meshes[k]), meshes[k].dispose();
               else meshes[k].geometry.dispose();
               draw();
             }
@@ -403,12 +403,17 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       late.update();
       given.update();
       result.again = differing(posed, draw(given));
+      given.material = late.material;
+      late.material = new THREE.MeshBasicMaterial();
+      for (const mesh of [late, given]) mesh.update();
+      result.programs = renderer.info.programs.length;
       return result;
     });
     assert.ok(found.moved > 1000, `${found.moved}`);
     assert.equal(found.off, 0);
     assert.match(found.message, /follows a face already/);
     assert.equal(found.again, 0, 'a material that a face has left follows another');
+    assert.equal(found.programs, 0, 'what a renderer made of a material goes when the face leaves it');
     assert.deepEqual(complaints, []);
   });
 }));

@@ -58,6 +58,19 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const neutral = await picture(), [told] = await page.locator('#figures').allInnerTexts();
     const size = (bytes.length / 1e6).toFixed(1), vertices = ((await positions()).length / 3).toLocaleString('en');
     assert.match(told, new RegExp(`^file\\s+${size} MB\\s+vertices\\s+${vertices}\\s+loaded in\\s+[1-9]\\d* ms\\s`));
+    await until(() => {
+      const memory = globalThis.sweepface.mesh.face.memoryBytes / 1e6;
+      return document.getElementById('figures').textContent.endsWith(`memory${memory.toFixed(1)} MB`);
+    });
+    assert.equal(await page.title(), 'sample.sweep · Sweepface');
+    const {names, colours, hasInside} = await page.evaluate(() => {
+      const {material: materials, children, geometry} = globalThis.sweepface.mesh;
+      return {names: materials.map(({name}) => name), colours: materials.map(({color}) => color.getHex()),
+              hasInside: children.some((child) => child.isMesh && child.geometry === geometry)};
+    });
+    const alike = [...new Set(colours)].map((colour) => names.filter((_, k) => colours[k] === colour).sort());
+    assert.deepEqual(alike.filter(({length}) => length > 1), [['gums', 'lips']]);
+    assert.ok(hasInside);
     await page.evaluate(() => {
       const {requestAnimationFrame} = globalThis;
       globalThis.frames = 0;
@@ -165,10 +178,18 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#rest').click();
     await slide('jawOpen', 0.5);
     const vertices = (await positions()).length / 3, {eye} = await view();
-    await page.evaluate(() => { globalThis.coarse = globalThis.sweepface.mesh.face; });
+    await page.evaluate(async () => {
+      globalThis.coarse = globalThis.sweepface.mesh.face;
+      const {Sweepface: {prototype}} = await import('./sweepface.js'), {prepare} = prototype;
+      prototype.prepare = function() {
+        globalThis.prepared = this;
+        prepare.call(this);
+      };
+    });
     await page.locator('#lod').selectOption('2');
     await until((vertices) => globalThis.sweepface.mesh.face.vertexCount > 3 * vertices, vertices);
     assert.equal(await weight('jawOpen'), 0.5);
+    await until(() => globalThis.prepared === globalThis.sweepface.mesh.face);
     const {eye: now} = await view();
     // The camera may still swing out, but does not return to the front.
     assert.ok(eye.every((x, k) => Math.abs(x - now[k]) < 10), `${eye} and ${now}`);
@@ -179,7 +200,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
   });
 
   await t.test('finds expressions by a part of their name', async () => {
-    await page.locator('#filter').fill('SMILE');
+    await page.locator('#filter').fill(' SMILE ');
     const found = await page.locator('.slider:visible span:first-child').allTextContents();
     assert.deepEqual(found, ['mouthSmileLeft', 'mouthSmileRight']);
   });

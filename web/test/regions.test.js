@@ -129,10 +129,12 @@ test('a goal of one region is its own', async () => {
   assert.deepEqual([face.weights.browInnerUp, face.weightsIn('above').browInnerUp], [0, 0.5]);
 });
 
-test('a timeline moves a region alone', async () => {
-  const face = await load([above]), events = [{at: 0, to: {jawOpen: 1}, drive: 'cut', region: 'above'}];
-  new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events}))).advance(0.5);
-  assert.deepEqual([face.weights.jawOpen, face.weightsIn('above').jawOpen], [0, 1]);
+test('a timeline moves a region alone, also the rest of a divided face', async () => {
+  for (const [region, weights] of [['above', [0, 1]], ['rest', [1, 0]]]) {
+    const face = await load([above]), events = [{at: 0, to: {jawOpen: 1}, drive: 'cut', region}];
+    new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events}))).advance(0.5);
+    assert.deepEqual([face.weights.jawOpen, face.weightsIn('above').jawOpen], weights);
+  }
 });
 
 test('regions go with arcs, a level of detail and clones', async () => {
@@ -163,7 +165,7 @@ test('what is no region is refused with a sentence', async () => {
   await refused([{...above, weight: 1}], /Region 'above' has an unknown 'weight'/);
   for (const nowhere of [{}, {parts: []}, {points: []}, {nodes: {}}])
     await refused([{name: 'above', ...nowhere}], /says nowhere where it is/);
-  await refused([{...above, points: [[0, 0]]}], /not like \[\[x, y, z\]\]/);
+  for (const point of [[0, 0], [0, NaN, 0]]) await refused([{...above, points: [point]}], /not like \[\[x, y, z\]\]/);
   for (const over of ['land', null]) await refused([{...above, over}], /which is neither surface nor space/);
   for (const bands of [0, 1.5]) await refused([{...above, bands}], new RegExp(`${bands} bands`));
   await refused([{...above, fade: -1}], /finite and at least 0/);
@@ -176,7 +178,7 @@ test('what is no region is refused with a sentence', async () => {
   for (const parts of ['lips', [undefined], [0]]) await refused([{...above, parts}], /'parts' that are no list of names/);
   await refused([{...above, curves: [0]}], /'curves' that are no list of names/);
   await refused([{...above, points: null}], /'points' that are not like/);
-  for (const nodes of [null, [1], []]) await refused([{...above, nodes}], /'nodes' that are no shares/);
+  for (const nodes of [null, [1], [], {a: 'x'}]) await refused([{...above, nodes}], /'nodes' that are no shares/);
   await refused([{...above, bands: 1e9}], /whole number from 1 to 32/);
   assert.deepEqual((await load([{...above, mass: undefined}])).regions, ['rest', 'above']);
 });

@@ -153,16 +153,16 @@ test('animations are matched by names, whichever meshes and tracks have them', o
   const track = (name, values, times = [0, 1]) => new three.NumberKeyframeTrack(name, times, values);
   const animations = [
     new three.AnimationClip('walk', 1, [new three.VectorKeyframeTrack('head.position', [0], [1, 2, 3])]),
-    new three.AnimationClip('talk', 1, [track('teeth.morphTargetInfluences', [0, 0, 0.5, 1]),
+    new three.AnimationClip('talk', 2, [track('teeth.morphTargetInfluences', [0, 0, 0.5, 1]),
                                         track('head.morphTargetInfluences', [7, 8, 9, 2, 7, 8, 9, 4])]),
     new three.AnimationClip('wink', 1, [track('head.morphTargetInfluences[3]', [0, 0.5]),
                                         track('teeth.morphTargetInfluences[smile]', [0, 0])])
   ];
   const face = {names: ['jawOpen', 'blink', 'smile']}, gltf = {scene, animations};
-  const told = (clip) => clip.tracks.map(({name, values}) => [name, ...values]);
-  assert.deepEqual(told(animationFor(face, gltf)), [['.morphTargetInfluences[smile]', 0, 0.5],
-                                                    ['.morphTargetInfluences[jawOpen]', 0, 1],
-                                                    ['.morphTargetInfluences[blink]', 2, 4]]);
+  const told = (clip) => clip.tracks.map(({name, values}) => [name, ...values]), talk = animationFor(face, gltf);
+  assert.deepEqual([talk.name, talk.duration], ['talk', 2]);
+  assert.deepEqual(told(talk), [['.morphTargetInfluences[smile]', 0, 0.5], ['.morphTargetInfluences[jawOpen]', 0, 1],
+                                ['.morphTargetInfluences[blink]', 2, 4]]);
   assert.deepEqual(told(animationFor(face, gltf, animations[2])), [['.morphTargetInfluences[blink]', 0, 0.5]]);
   const spline = track('teeth.morphTargetInfluences', [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);  // tangents beside values
   spline.createInterpolant = () => 'cubic';
@@ -279,7 +279,8 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     assert.deepEqual(Object.keys(bare.geometry.attributes), Object.keys(geometry.attributes));
     bare.geometry.setIndex(null);
     bare.material = bare.material[0];
-    assert.ok(new three.Raycaster(new three.Vector3(0, 0, 99), new three.Vector3(0, 0, -1)).intersectObject(bare));
+    const rays = new three.Raycaster(new three.Vector3(0, 0, 99), new three.Vector3(0, 0, -1));
+    assert.ok(rays.intersectObject(bare).length > 0);
   });
 
 for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
@@ -364,14 +365,14 @@ test('clones have what was put into a geometry', options, async () => {
   geometry.setAttribute('color', colour);
   geometry.groups.pop();
   geometry.setDrawRange(3, 300);
-  geometry.name = 'mine';
+  Object.assign(geometry, {name: 'mine', userData: {mine: 1}});
   const twin = mesh.clone().geometry;
   assert.notEqual(twin.attributes.color, colour);
   assert.deepEqual(twin.attributes.color.array, colour.array);
   assert.notEqual(twin.attributes.position, geometry.attributes.position);
   assert.deepEqual(twin.groups, geometry.groups);
   assert.notEqual(twin.groups[0], geometry.groups[0]);
-  assert.deepEqual([twin.drawRange, twin.name], [{start: 3, count: 300}, 'mine']);
+  assert.deepEqual([twin.drawRange, twin.name, twin.userData], [{start: 3, count: 300}, 'mine', {mine: 1}]);
 });
 
 test('what is no face is refused with a sentence', options, async () => {
@@ -392,6 +393,17 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     for (let frame = 0; frame < 120; ++frame) mesh.update(1 / 60);
     assert.ok(face.weights.jawOpen > 0.99);
     assert.deepEqual(mesh.clone().face.pose, face.pose);
+  });
+
+for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
+  test(`${name} has the regions and the eyes of its face`, options, async () => {
+    const {Sweepface} = await import('../sweepface.js'), Made = (await import(`../sweepface_${module}.js`))[name];
+    const regions = [{name: 'above', points: [[0, 8, 9]], whole: 5, over: 'space'}], pose = {leftEye: {yaw: 0.3}, rightEye: {}};
+    const mesh = new Made(await Sweepface.load(readFileSync(sample), {regions, eyes: true}));
+    mesh.moveTo({jawOpen: 1}, 'cut', 'above');
+    assert.deepEqual(mesh.regions.map((region) => mesh.weightsIn(region).jawOpen), [0, 1]);
+    mesh.look(pose);
+    assert.deepEqual([mesh.eyeCount, mesh.pose], [2, pose]);
   });
 
 test('other materials see the neutral of a face on the graphics card', options, async () => {
@@ -514,12 +526,14 @@ test('rays evaluate a face on the graphics card once for each expression, withou
   }
 });
 
-test('a mesh on the graphics card says which renderer it is for, once', options, async (context) => {
-  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js'), {face} = await load(), said = [];
+test('meshes on the graphics card say which renderer they are for, once', options, async (context) => {
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js'), {SweepfaceNodeMesh} = await import('../sweepface_webgpu.js');
+  const {face} = await load(), said = [];
   context.mock.method(console, 'error', (sentence) => said.push(sentence));
-  const meshes = [0, 1].map(() => new SweepfaceGpuMesh(face.clone()));
+  const meshes = [SweepfaceGpuMesh, SweepfaceGpuMesh, SweepfaceNodeMesh, SweepfaceNodeMesh].map((Made) => new Made(face.clone()));
   for (const mesh of meshes) for (const renderer of [{isWebGLRenderer: true}, {isRenderer: true}]) mesh.onBeforeRender(renderer);
-  assert.deepEqual(said, ['WebGPURenderer draws the neutral of every SweepfaceGpuMesh; make a SweepfaceNodeMesh for it.']);
+  assert.deepEqual(said, ['WebGPURenderer draws the neutral of every SweepfaceGpuMesh; make a SweepfaceNodeMesh for it.',
+                          'WebGLRenderer draws the neutral of every SweepfaceNodeMesh; make a SweepfaceGpuMesh for it.']);
 });
 
 test('materials keep what they do to a shader, and their clones too', options, async () => {

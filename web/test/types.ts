@@ -53,12 +53,20 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.dispose();
 }
 
+export class MyBabylonMesh extends BabylonMesh {
+  constructor(name: string, scene: BabylonScene, face: Sweepface) { super(name, scene, face, new StandardMaterial('mine', scene)); }
+}
+
 export async function useBabylon(scene: BabylonScene, bytes: ArrayBuffer): Promise<void> {
   const mesh: BabylonMesh = await BabylonMesh.load('face.sweep', scene, {lod: 1});
   mesh.setWeights({jawOpen: 0.7});
   mesh.moveTo({jawOpen: 0}, {kind: 'spring', frequency: 3});
   mesh.position.x = 3;
   const twin: BabylonMesh = mesh.clone('twin'), moving: boolean = twin.advance(0.1);
+  const own: MyBabylonMesh = await MyBabylonMesh.load(bytes), last: BabylonMesh = new BabylonMesh('last', null, own.face);
+  console.log(last.getScene() === scene, (await BabylonMesh.load(bytes, undefined, {lod: 1})).pose);
+  // @ts-expect-error A face is no scene.
+  new BabylonMesh('none', mesh.face, mesh.face);
   console.log(moving, mesh.weights.jawOpen, mesh.face.tolerance, new ClipPlayer(mesh, readClip('')).match.undriven);
   mesh.clone('bald', null, true).clone('last', twin);
   new BabylonMesh('other', scene, await Sweepface.load(bytes), new StandardMaterial('skin', scene)).dispose();

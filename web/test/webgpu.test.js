@@ -197,7 +197,9 @@ for (const backend of ['WebGPU', 'WebGL'])
         result.left = differ(cpu, await draw(twin));
         const displacementMap = new THREE.DataTexture(new Uint8Array(4).fill(255), 1, 1);
         displacementMap.needsUpdate = true;
-        const thick = await make(() => new THREE.MeshNormalMaterial({displacementMap, displacementScale: 0.1 * sphere.radius}));
+        const thick = await make(() => new THREE.MeshNormalMaterial({
+          displacementMap, displacementScale: 0.1 * sphere.radius, displacementBias: 0.2 * sphere.radius
+        }));
         result.thick = differ(...await posed(...thick));
         const later = await make(() => new THREE.MeshNormalNodeMaterial());
         await posed(...later);

@@ -1,0 +1,36 @@
+#include "gltf/left_out.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "sweepface/usd.hpp"
+
+#include "gltf/scene.hpp"
+
+namespace sweepface {
+
+std::string leftOutOfUsd(const Rig& rig) {
+  const auto document = gltf::parseScene(rig.scene);
+  if (rig.scene.empty() || !document) return {};
+  const auto parts = gltf::findPartsAnywhere(*document);
+  if (!parts) return {};
+  const auto has = [&](const char* list) { return !document->list(list).empty(); };
+  const bool isColoured = std::ranges::any_of(parts->parts, [&](const gltf::Part& part) {
+    const gltf::Json* const attributes =
+        gltf::find(gltf::primitiveOf(*document, *parts, part), "attributes");
+    return attributes && attributes->contains("COLOR_0");
+  });
+  std::vector<std::string> kinds;
+  for (const auto& [isThere, kind] :
+       {std::pair(!gltf::leftOut(*document, *parts).empty(), "other meshes"),
+        {has("skins"), "skins"},
+        {has("animations"), "animations"},
+        {isColoured, "colours of vertices"}})
+    if (isThere) kinds.emplace_back(kind);
+  if (kinds.empty()) return {};
+  return fmt::format("Of the scene that the face came with a USD file has no {}; a .glb has them.",
+                     fmt::join(kinds, ", "));
+}
+
+}  // namespace sweepface
