@@ -6,17 +6,13 @@ import {MemoryError} from './sweepface_wasm.js';
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
 
-/** Frees what a face has of its own, and with the last face of a file what they share. */
-function free({runtime, mesh, rig}, {face, motion, memory}) {
+/** Frees what a face has of its own. What the faces of a file share goes with their runtime. */
+function free({runtime}, {face, motion, memory}) {
   const {wasm} = runtime;
   if (runtime.isDead) return;
   wasm.sweepface_motion_free(motion);
   wasm.sweepface_face_free(face);
   wasm.free(memory.positions);
-  if (--runtime.users === 0) {
-    wasm.sweepface_mesh_free(mesh);
-    wasm.sweepface_rig_free(rig);
-  }
 }
 
 /** Frees faces that nobody disposed of before they were collected, as frameworks drop what they render twice. */
@@ -38,7 +34,6 @@ export class Sweepface {
     // One block: float arrays, weights, C structs of a drive and two vectors.
     this.#own.memory = {positions, normals, weights, drive, vectors};
     this.#own.face = runtime.get('sweepface_face_create', shared.mesh);
-    ++runtime.users;
     forgotten.register(this, {shared, own: this.#own}, this);
   }
 

@@ -113,7 +113,6 @@ export class Runtime {
       return [name, typeof it === 'function' ? this.watched(it) : it];
     }));
     this.wasm._initialize();
-    this.users = 0;
     this.isDead = false;
   }
 

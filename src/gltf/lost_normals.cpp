@@ -10,9 +10,9 @@ namespace {
 constexpr double kFar = 0.866, kOpposite = -0.999;
 // A smaller share is lashes and rims, which a smooth surface may have.
 constexpr double kShare = 0.01;
-// The cosine of 60 degrees: vertices of coarse meshes have normals up to 45 degrees from the mean
-// of the triangles around them. Tips and rims may have more.
-constexpr double kOther = 0.5, kShareOfOthers = 0.05;
+// The cosine of 45 degrees. Only tips and rims have normals that far from the mean of the triangles
+// around, unless they are not meant to be those of the mesh.
+constexpr double kOther = 0.707, kShareOfOthers = 0.05;
 
 bool areApart(const Vec3& a, const Vec3& b) {
   const double lengths = norm(a) * norm(b), cosine = dot(a, b);
@@ -87,7 +87,7 @@ std::string lostNormals(const Document& document, const Parts& parts, const Mesh
         hard, all);
   if (static_cast<double>(other) > kShareOfOthers * static_cast<double>(all))
     return fmt::format(
-        "At {} of {} places the vertices have normals more than 60 degrees from those of the "
+        "At {} of {} places the vertices have normals more than 45 degrees from those of the "
         "triangles around them (made for shading, or the triangles look inwards): the surface has "
         "normals of its own.",
         other, all);

@@ -32,7 +32,8 @@ Result<void> checkSize(const Cage& cage, int levels) {
   if (faces > kMostFaces)
     return fail("at level ", levels, " of subdivision the mesh would have ",
                 static_cast<std::int64_t>(faces), " faces, of which ",
-                static_cast<std::int64_t>(kMostFaces), " are allowed; subdivide it less");
+                static_cast<std::int64_t>(kMostFaces), " are allowed; subdivide it ",
+                levels > 1 ? "less" : "not at all");
   std::vector<Index> facesAt(cage.vertices.size());
   for (const Index v : cage.corners) ++facesAt[v];
   if (std::ranges::any_of(facesAt, [](Index n) { return n > kMostAround; }) ||

@@ -27,9 +27,9 @@ std::vector<std::array<Index, 2>> basisKeys(const Wireframe& w, const Connectivi
   return keys;
 }
 
-// Checks that each side and each rail has one ribbon, and that the two sides along which a patch
-// sweeps share theirs.
-Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
+// Checks that each side has one ribbon, and so each rail, which lies on a side wherever it passes a
+// T-node, and that the two sides along which a patch sweeps share theirs.
+Result<void> checkRibbons(const Wireframe& w) {
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
     const auto ribbon = [&](HalfArc h) { return w.arcs[arcOf(h)].ribbon; };
     for (int s = 0; s < 4; ++s)
@@ -39,15 +39,6 @@ Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
     if (ribbon(w.side(p, 0)[0]) != ribbon(w.side(p, 2)[0]))
       return fail("patch ", p, " sweeps along sides of two ribbons");
   }
-  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
-    if (c.kinds[n] != NodeKind::hanging) continue;
-    const auto& arms = c.stars[n].arms;
-    for (int k = 0; k < 3; ++k) {
-      const int on = c.opposite(static_cast<Index>(n), k);
-      if (on >= 0 && w.arcs[arcOf(arms[k])].ribbon != w.arcs[arcOf(arms[on])].ribbon)
-        return fail("the ribbon changes at T-node ", n);
-    }
-  }
   return {};
 }
 
@@ -55,7 +46,7 @@ Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
 
 Result<Surface> Surface::make(Wireframe wireframe, Connectivity connectivity,
                               std::vector<Index>* circle) {
-  if (auto ok = checkRibbons(wireframe, connectivity); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkRibbons(wireframe); !ok) return std::unexpected(ok.error());
   auto bases = BasisTable::make(wireframe.ribbons, basisKeys(wireframe, connectivity));
   if (!bases) return std::unexpected(bases.error());
   auto jets = buildJets(wireframe, connectivity, *bases, circle);

@@ -19,7 +19,7 @@ TEST(LostNormals, AreThoseFarFromTheTriangles) {
   EXPECT_TRUE(warningsWith(0, Json::object()).empty());
   EXPECT_EQ(warningsWith(4, Json::object()),
             std::vector<std::string>{
-                "At 4 of 9 places the vertices have normals more than 60 degrees from those of the "
+                "At 4 of 9 places the vertices have normals more than 45 degrees from those of the "
                 "triangles around them (made for shading, or the triangles look inwards): the "
                 "surface has normals of its own."});
 }
