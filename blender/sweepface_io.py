@@ -774,7 +774,7 @@ class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):
     bl_idname = "object.sweepface_clip"
     bl_label = "Play a Clip"
 
-    filter_glob: StringProperty(default="*.csv;*.json;*.glb;*.gltf", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.csv;*.json;*.glb;*.gltf;*.vrm", options={"HIDDEN"})
     smooth: BoolProperty(name="Smooth", description="Take a tracker's noise out of it", default=False)
     names: StringProperty(name="Names", description="A .json that says which shape keys the clip's names drive where they are called "
                           "otherwise", subtype="FILE_PATH")

@@ -1,6 +1,7 @@
 #include "command.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -120,9 +121,9 @@ CLI::Option* addSubdivide(CLI::App& app, int& levels) {
 }
 
 void addMeshes(CLI::App& app, MeshArguments& meshes) {
-  app.add_option(
-         "NEUTRAL", meshes.neutral,
-         "The face at rest, an .obj or .ply file; or a face with its expressions, a .glb or .gltf")
+  app.add_option("NEUTRAL", meshes.neutral,
+                 "The face at rest, an .obj or .ply file; or a face with its expressions, a .glb, "
+                 ".gltf or .vrm")
       ->required()
       ->type_name("");
   app.add_option("TARGETS", meshes.targets,
@@ -250,8 +251,17 @@ Result<Rig> readFace(const std::string& path) {
 }
 
 std::string quoted(const std::string& path) {
-  const bool isPlain = path.find_first_of(" &()'*?;<>|#") == std::string::npos;
-  return isPlain ? path : '"' + path + '"';
+  const auto isPlain = [](unsigned char c) {
+    return c >= 0x80 || std::isalnum(c) || std::string_view("_-+=.,:@%/").contains(c);
+  };
+  if (std::ranges::all_of(path, isPlain)) return path;
+#ifdef _WIN32
+  return '"' + path + '"';
+#else
+  std::string text = "'";
+  for (const char c : path) c == '\'' ? text += "'\\''" : text += c;
+  return text + "'";
+#endif
 }
 
 Result<Rig> opened(std::string_view bytes, const std::string& path) {
@@ -347,9 +357,7 @@ bool isOfKind(std::string_view path, std::string_view kind) {
   return extensionOf(utf8Path(path)) == kind;
 }
 
-bool isGltf(std::string_view path) {
-  return isOfKind(path, ".glb") || isOfKind(path, ".gltf") || isOfKind(path, ".vrm");
-}
+bool isGltf(std::string_view path) { return sweepface::isGltf(utf8Path(path)); }
 
 Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar, bool withScene) {
   std::vector<fs::path> paths;

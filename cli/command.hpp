@@ -140,7 +140,6 @@ Result<std::string> encodeReadable(const Rig& rig, const std::string& path);
 
 /// Whether a file's name has an ending like ".glb", in lower or upper case.
 bool isOfKind(std::string_view path, std::string_view kind);
-/// Whether it is a .glb, .gltf or .vrm.
 bool isGltf(std::string_view path);
 
 /// Reads the meshes that the options of addMeshes() name, as they are in their files.

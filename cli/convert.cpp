@@ -73,9 +73,10 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   app.add_flag(
       "--no-shapes", a.noShapes,
       "Do not search for shape parameters: faster; normals are slightly further from the mesh's");
-  app.add_flag("--bare", a.bare,
-               "Leave out what a .glb or .gltf has besides the face: materials, textures, skins, "
-               "other meshes ...");
+  app.add_flag(
+      "--bare", a.bare,
+      "Leave out what a .glb, .gltf or .vrm has besides the face: materials, textures, skins, "
+      "other meshes ...");
   addQuiet(app, a.quiet);
   addJson(app, a.json);
   app.footer(

@@ -58,24 +58,44 @@ std::string plainly(std::string name) {
   return name;
 }
 
-/// The other targets whose names stand in that of one, the longest first and each apart from those
-/// before; those that follow others themselves do not count.
-std::vector<Index> namedIn(Index target, const std::vector<std::string>& names,
-                           const std::vector<Follower>& followers) {
-  constexpr std::size_t kShortest = 4;  // letters: shorter names stand in others by chance
+/// Targets by the length of their names, the longest first, but for those that follow others.
+std::vector<Index> leadersByLength(const std::vector<std::string>& names,
+                                   const std::vector<Follower>& followers) {
   std::vector<Index> order;
   for (Index k = 0; k < std::ssize(names); ++k)
     if (std::ranges::find(followers, k, &Follower::target) == followers.end()) order.push_back(k);
   std::ranges::stable_sort(order, std::greater{}, [&](Index k) { return names[k].size(); });
+  return order;
+}
+
+/// Where a name stands in another between underscores, or npos.
+std::size_t placeIn(const std::string& name, const std::string& part) {
+  for (auto at = name.find(part); at != name.npos; at = name.find(part, at + 1)) {
+    const std::size_t end = at + part.size();
+    if ((at == 0 || name[at - 1] == '_') && (end == name.size() || name[end] == '_')) return at;
+  }
+  return name.npos;
+}
+
+/// The targets whose names stand in that of one, each apart from those before.
+std::vector<Index> namedIn(Index target, const std::vector<std::string>& names,
+                           const std::vector<Index>& leaders) {
   std::string name = names[target];
   std::vector<Index> found;
-  for (const Index k : order) {
-    const std::size_t at = name.find(names[k]);
-    if (names[k].size() < kShortest || names[k] == names[target] || at == name.npos) continue;
+  for (const Index k : leaders) {
+    const std::size_t at = names[k] == names[target] ? name.npos : placeIn(name, names[k]);
+    if (at == name.npos) continue;
     found.push_back(k);
     name.replace(at, names[k].size(), 1, '\0');
   }
   return found;
+}
+
+/// Whether a name is another with something after it that ends in two digits, but is no number.
+bool isStopOf(const std::string& name, const std::string& leader) {
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  return name.size() > leader.size() + 2 && name.starts_with(leader) &&
+         !isDigit(name[leader.size()]) && isDigit(name.back()) && isDigit(name[name.size() - 2]);
 }
 
 /// Warns of targets that would be combinations if names did not differ in capitals and separators,
@@ -85,13 +105,15 @@ void warnOfSpellings(const std::vector<std::string>& names,
   std::vector<std::string> plain;
   for (const std::string& name : names) plain.push_back(plainly(name));
   const std::vector<Follower> alike = Followers::named(plain);
+  const std::vector<Index> possible = leadersByLength(plain, alike);
   for (Index k = 0; k < std::ssize(names); ++k) {
     if (std::ranges::find(followers, k, &Follower::target) != followers.end()) continue;
     const auto meant = std::ranges::find(alike, k, &Follower::target);
-    const std::vector<Index> leaders =
-        meant != alike.end() ? meant->leaders : namedIn(k, plain, alike);
-    const bool isStop = !leaders.empty() && plain[k].back() >= '0' && plain[k].back() <= '9';
-    if (leaders.size() > 1 || isStop || meant != alike.end())
+    std::vector<Index> leaders =
+        meant != alike.end() ? meant->leaders : namedIn(k, plain, possible);
+    if (leaders.size() == 1 && meant == alike.end() && !isStopOf(plain[k], plain[leaders[0]]))
+      continue;
+    if (!leaders.empty())
       printWarning(
           fmt::format("--combine: {} does not follow {}, as it is not spelt alike; rename it.",
                       names[k], listed(leaders, names)));

@@ -28,9 +28,10 @@ Result<Timeline> readTimeline(const PerformanceArguments& a, const std::string& 
 Result<Clip> readCapture(const PerformanceArguments& a, const std::string& text) {
   const bool isJson = isOfKind(a.clip, ".json"), gltf = isGltf(a.clip);
   if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))
-    return fail(fmt::format(
-        "{} is neither a .csv, a .json, a .glb nor a .gltf; give a recording or a timeline.",
-        a.clip));
+    return fail(
+        fmt::format("{} is neither a .csv, a .json, a .glb, a .gltf nor a .vrm; give a recording "
+                    "or a timeline.",
+                    a.clip));
   if (!gltf && !a.animation.empty())
     return fail(fmt::format(
         "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));

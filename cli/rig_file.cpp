@@ -29,10 +29,10 @@ Result<void> checkRigFile(const RigFileArguments& a, std::string_view output) {
     return fail(
         fmt::format("{} for {} files; name the output so or leave that out.", options, kinds));
   };
-  for (const auto& [isGiven, option] : {std::pair(a.morphNormals, "--morph-normals is"),
-                                        {a.metersPerUnit > 0, "--meters-per-unit is"},
-                                        {a.zUp, "--z-up is"}})
-    if (isGiven && !glb && !usd) return refuse(option, ".glb, .usda and .usdz");
+  constexpr const char* kBoth = ".glb, .usda and .usdz";
+  if (a.morphNormals && !glb && !usd) return refuse("--morph-normals is", kBoth);
+  if (a.metersPerUnit > 0 && !glb && !usd) return refuse("--meters-per-unit is", kBoth);
+  if (a.zUp && !glb && !usd) return refuse("--z-up is", kBoth);
   if (a.quantize && !glb) return refuse("--quantize is", ".glb");
   return {};
 }

@@ -36,15 +36,15 @@ Result<Clip> played(const Timeline& timeline, const std::string& text, const std
 Result<Clip> parsedClip(const std::filesystem::path& path, const std::string& text,
                         double framesPerSecond, const std::string& animation) {
   const std::string kind = extensionOf(path), name = path.string();
-  const bool isGltf = kind == ".glb" || kind == ".gltf", isJson = kind == ".json";
-  if (!isGltf && !isJson && kind != ".csv")
-    return fail(fmt::format("{} is neither a .csv, a .json, a .glb nor a .gltf.", name));
-  if (!isGltf && !animation.empty())
+  const bool hasScene = isGltf(path), isJson = kind == ".json";
+  if (!hasScene && !isJson && kind != ".csv")
+    return fail(fmt::format("{} is neither a .csv, a .json, a .glb, a .gltf nor a .vrm.", name));
+  if (!hasScene && !animation.empty())
     return fail(fmt::format("{} has no animations to choose from, as a .glb has.", name));
-  const bool hasTimes = isGltf || (isJson && isTimeline(text));
+  const bool hasTimes = hasScene || (isJson && isTimeline(text));
   if (hasTimes && framesPerSecond > 0)
     return fail(fmt::format("{} tells its own times; leave frames_per_second out.", name));
-  if (isGltf) return parseGltfClip(text, name, folderOf(path), animation);
+  if (hasScene) return parseGltfClip(text, name, folderOf(path), animation);
   if (!isJson) return parseLiveLinkCsv(text, name, framesPerSecond);
   if (!hasTimes) return parseClipJson(text, name, framesPerSecond);
   const auto timeline = parseTimeline(text, name);
@@ -232,7 +232,8 @@ void addClip(py::module_& m) {
   m.def("read_clip", &readClip, "path"_a, py::kw_only(), "frames_per_second"_a = 0,
         "animation"_a = "",
         "Reads a capture of Live Link Face (.csv), Audio2Face or MediaPipe (.json), an animation "
-        "of morph targets (.glb, .gltf; the first, or that of the name), or a timeline (.json). "
+        "of morph targets (.glb, .gltf, .vrm; the first, or that of the name), or a timeline "
+        "(.json). "
         "frames_per_second, if given, is that of captures that do not tell.");
 }
 

@@ -181,7 +181,7 @@ void addMeshes(py::module_& m) {
       });
   m.def("read_meshes", &readMeshes, py::arg("neutral"), py::arg("targets") = py::tuple(),
         "Reads an .obj or .ply file and its targets, a path or several: files, each named after "
-        "itself, or folders of them; or a .glb or .gltf file, which holds its targets.");
+        "itself, or folders of them; or a .glb, .gltf or .vrm file, which holds its targets.");
 }
 
 }  // namespace sweepface::python

@@ -220,6 +220,7 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
     else ++broken;
     return found;
   });
+  keepHeads(scores);
   const shapes = new Set(scores.flatMap((frame) => [...frame.keys()].sort()));
   const names = [...shapes].filter((shape) => shape !== '_neutral');
   if (names.length === 0) throw fail('has no scores in its frames');
@@ -240,7 +241,7 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
   const clip = new Clip(names, Float64Array.from(kept, (f) => times[f]), weights);
   if (broken > 0)
     clip.warnings.push(`${name}: ${broken} of ${frames.length} frames have a transformation of the face that is no matrix ` +
-                       'of 4 × 4 numbers; how the head turns there is left out.');
+                       'of 4 × 4 numbers; the head stands there as in the frame before.');
   const step = 1000 * (times[last] - times[0]) / last, lost = found.filter((has) => !has).length;
   if (step < 1 || step > 5000)  // no camera does that
     clip.warnings.push(`${name}: frames are ${step > 1 ? Math.round(step) : Number(step.toPrecision(3))} ms apart; are the ` +
@@ -289,10 +290,20 @@ function columnsOf4x4(matrix) {
   return [0, 1, 2].map((c) => [0, 1, 2].map((r) => data[c * across + r * down]));
 }
 
+/** Where a frame does not tell how the head turns, it stands as in the one before, or else as in the first that does. */
+function keepHeads(scores) {
+  const tells = (frame) => frame.has('HeadYaw');
+  let last = scores.find(tells);
+  for (const frame of last ? scores : []) {
+    if (tells(frame)) last = frame;
+    else if (frame.size > 0) for (const angle of ['HeadYaw', 'HeadPitch', 'HeadRoll']) frame.set(angle, last.get(angle));
+  }
+}
+
 /** How the head of a frame turns, by left-handed angles; none without a matrix, null if it is broken. */
 function headOf(frame) {
   const matrices = frame.facialTransformationMatrixes ?? frame.facial_transformation_matrixes ?? [];
-  if (matrices.length === 0) return [];
+  if (Array.isArray(matrices) && matrices.length === 0) return [];
   const columns = Array.isArray(matrices) ? columnsOf4x4(matrices[0]) : null;
   const [x, y, z] = columns?.map((column) => Math.hypot(...column)) ?? [];
   if (!(x > 0 && y > 0 && z > 0)) return null;

@@ -70,6 +70,8 @@ Result<std::string> readFile(const std::filesystem::path& path);
 
 /// The extension of a path with its dot, in lower case; a file named ".glb" has one, too.
 std::string extensionOf(const std::filesystem::path& path);
+/// Whether a name is that of a .glb, a .gltf or a .vrm, which is a .glb by another name.
+bool isGltf(const std::filesystem::path& path);
 
 /// The folder that a file is in, "." if its path names none.
 std::filesystem::path folderOf(const std::filesystem::path& path);

@@ -18,7 +18,8 @@ namespace gltf {
 namespace {
 
 Result<void> check(const Rig& rig, const GlbOptions& options) {
-  const io::RigOutput output{options.lod, options.grid, options.weights, options.clip};
+  const io::RigOutput output{options.lod, options.grid, options.weights, options.clip,
+                             options.metersPerUnit};
   if (auto ok = io::checkOutput(rig, output); !ok) return ok;
   if (options.motion && options.motion->size() != rig.targets.size())
     return fail(fmt::format("The motion has {} weights, but the face {} targets.",
@@ -27,8 +28,6 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
     return fail("The clip starts before 0, where glTF knows no time.");
   if (!(options.keyTolerance >= 0 && options.keyTolerance < 1e9))
     return fail("The tolerance of keys is a number from 0.");
-  if (!(options.metersPerUnit >= 0 && options.metersPerUnit < 1e30))
-    return fail("Metres a unit are a number above 0.");
   if (!rig.scene.empty() && (options.metersPerUnit > 0 || options.zUp))
     return fail(
         "The scene that the face came with is in metres, with y up; leave metres a unit and z up "
@@ -81,18 +80,17 @@ class GlbWriter {
     return sceneOfPolygons(rig_, sourcePositions(rig_, Tessellation(rig_.surface, 1), vectors, {}));
   }
 
+  double metre() const { return options_.metersPerUnit > 0 ? options_.metersPerUnit : 1; }
+
   /// Stands a face that came without a scene in metres, with y up.
   void stand() {
     Json& node = scene_.document.json["nodes"][0];
-    if (const double m = options_.metersPerUnit; m > 0) node["scale"] = {m, m, m};
+    if (const double m = metre(); m != 1) node["scale"] = {m, m, m};
     if (options_.zUp) node["rotation"] = {-std::numbers::sqrt2 / 2, 0, 0, std::numbers::sqrt2 / 2};
   }
 
   /// Where a point of the face is then.
-  Vec3 standing(const Vec3& p) const {
-    const double m = options_.metersPerUnit > 0 ? options_.metersPerUnit : 1;
-    return m * (options_.zUp ? Vec3{p.x, p.z, -p.y} : p);
-  }
+  Vec3 standing(const Vec3& p) const { return metre() * (options_.zUp ? Vec3{p.x, p.z, -p.y} : p); }
 
   Result<void> animate(Builder& builder) {
     if (!options_.head) return addAnimation(scene_, options_, builder);

@@ -56,7 +56,8 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   source.warnings = document->warnings;
   for (auto& sentences : {parts->warnings, gltf::leftOut(*document, *parts)})
     source.warnings.insert(source.warnings.end(), sentences.begin(), sentences.end());
-  if (std::string meeting = gltf::touchingMeshes(*document, *parts, source.rig); !meeting.empty())
+  if (std::string meeting = gltf::touchingMeshes(*document, *parts, source.rig, places);
+      !meeting.empty())
     source.warnings.push_back(std::move(meeting));
   auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());

@@ -11,6 +11,7 @@
 
 #include "gltf/nodes.hpp"
 #include "io/text.hpp"
+#include "mesh/each_edge.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -19,29 +20,61 @@ namespace {
 constexpr double kTogether = 1e-5;
 // Meshes that meet share an edge at least; a single vertex may stand there by chance.
 constexpr std::size_t kFewest = 3;
+// Vertices that are looked at, over all nodes; many nodes may show one large mesh.
+constexpr std::size_t kMostLookedAt = std::size_t{1} << 22;
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// The places of vertices that no target moves.
-class StillPlaces {
+/// [vertices] whether each is on the rim of the faces: on an edge that has a face on one side only.
+std::vector<bool> onRim(const Polygons& faces, std::span<const Index> places) {
+  std::vector<std::pair<Index, Index>> edges;
+  eachEdge(faces,
+           [&](Index a, Index b, Index) { edges.push_back(std::minmax(places[a], places[b])); });
+  std::ranges::sort(edges);
+  std::vector<bool> isOnRim(places.size());
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto next = std::find_if(edge, edges.end(), [&](auto& e) { return e != *edge; });
+    if (next - edge == 1) isOnRim[edge->first] = isOnRim[edge->second] = true;
+    edge = next;
+  }
+  return isOnRim;
+}
+
+/// Where the face's vertices are, and its rim as far as no target moves it.
+class Rim {
  public:
-  explicit StillPlaces(const MeshRig& rig) : size_(kTogether * diagonal(rig.neutral.positions)) {
-    for (std::size_t v = 0; v < rig.neutral.positions.size() && size_ > 0; ++v)
-      if (std::ranges::none_of(rig.targets, [&](const MeshTarget& target) {
-            return norm(target.positions[v] - rig.neutral.positions[v]) > size_;
+  Rim(const MeshRig& rig, std::span<const Index> places)
+      : size_(kTogether * diagonal(rig.neutral.positions)) {
+    if (!(size_ > 0)) return;
+    const std::vector<bool> isOnRim = onRim(rig.neutral.polygons, places);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      const Vec3& p = rig.neutral.positions[v];
+      all_.insert(cellOf(p));
+      if (isOnRim[places[v]] && std::ranges::none_of(rig.targets, [&](const MeshTarget& target) {
+            return norm(target.positions[v] - p) > size_;
           }))
-        cells_.insert(cellOf(rig.neutral.positions[v]));
+        rim_.insert(cellOf(p)), box_.include(p);
+    }
   }
 
-  /// The places of the face at which there are any of these.
-  std::size_t shared(const std::vector<double>& positions, const Affine& world) const {
+  /// Whether a box is no further away than that.
+  bool isNear(const Box& box) const {
+    const Vec3 below = box_.high - box.low, above = box.high - box_.low;
+    return std::min({below.x, below.y, below.z, above.x, above.y, above.z}) >= -size_;
+  }
+
+  /// Whether vertices stand at several places of the rim, and are not mostly a copy of the face.
+  bool meets(const std::vector<Vec3>& vertices, const Affine& world) const {
     std::set<Cell> found;
-    for (std::size_t k = 0; k + 2 < positions.size() && size_ > 0; k += 3) {
-      const Vec3 p = world.point({positions[k], positions[k + 1], positions[k + 2]});
+    std::size_t copied = 0;
+    for (const Vec3& vertex : vertices) {
+      const Vec3 p = world.point(vertex);
       if (!(norm(p) < 1e15 * size_)) continue;  // beyond whole numbers of cells
-      if (const Cell cell = cellOf(p); cells_.contains(cell)) found.insert(cell);
+      const Cell cell = cellOf(p);
+      copied += all_.contains(cell);
+      if (rim_.contains(cell)) found.insert(cell);
     }
-    return found.size();
+    return found.size() >= kFewest && 2 * copied <= vertices.size();
   }
 
  private:
@@ -50,7 +83,8 @@ class StillPlaces {
   }
 
   double size_;
-  std::set<Cell> cells_;
+  std::set<Cell> all_, rim_;
+  Box box_;
 };
 
 /// [meshes] the primitives of triangles that are not of the face.
@@ -64,42 +98,78 @@ std::vector<std::set<std::size_t>> othersOf(const Document& document, const Part
   return others;
 }
 
-/// x, y and z of the vertices of triangles; nothing if there are none that can be read.
-std::vector<double> positionsOf(const Document& document, const Json& primitive) {
+/// What an accessor holds; nothing if it cannot be read.
+std::vector<double> valuesOf(const Document& document, const Json& holder, std::string_view key) {
+  const auto index = findIndex(holder, key, document.list("accessors").size());
+  if (!index) return {};
+  const auto accessor = accessorAt(document, *index);
+  if (!accessor) return {};
+  return decode(document, *accessor).value_or(std::vector<double>{});
+}
+
+/// The vertices of the triangles of a primitive; none if it has none or cannot be read.
+std::vector<Vec3> verticesOf(const Document& document, const Json& primitive) {
   const Json* const attributes = find(primitive, "attributes");
   if (!attributes || findIndex(primitive, "mode", fanMode + 1).value_or(listMode) < listMode)
     return {};
-  const auto index = findIndex(*attributes, "POSITION", document.list("accessors").size());
-  if (!index) return {};
-  const auto accessor = accessorAt(document, *index);
-  if (!accessor || accessor->components() != 3) return {};
-  return decode(document, *accessor).value_or(std::vector<double>{});
+  const std::vector<double> values = valuesOf(document, *attributes, "POSITION");
+  std::vector<Vec3> all;
+  for (std::size_t k = 0; k + 2 < values.size(); k += 3)
+    all.push_back({values[k], values[k + 1], values[k + 2]});
+  if (!find(primitive, "indices")) return all;
+  std::vector<bool> isUsed(all.size());
+  for (const double index : valuesOf(document, primitive, "indices"))
+    if (index < static_cast<double>(all.size())) isUsed[static_cast<std::size_t>(index)] = true;
+  std::vector<Vec3> used;
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (isUsed[v]) used.push_back(all[v]);
+  return used;
+}
+
+/// The box around what a transform makes of a box.
+Box placed(const Box& box, const Affine& world) {
+  Box result;
+  for (int corner = 0; corner < 8; ++corner)
+    result.include(
+        world.point({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                     corner & 4 ? box.high.z : box.low.z}));
+  return result;
 }
 
 }  // namespace
 
-std::string touchingMeshes(const Document& document, const Parts& parts, const MeshRig& rig) {
+std::string touchingMeshes(const Document& document, const Parts& parts, const MeshRig& rig,
+                           std::span<const Index> places) {
   const auto others = othersOf(document, parts);
   const auto worlds = worldMatrices(document);
   if (!worlds || std::ranges::all_of(others, &std::set<std::size_t>::empty)) return {};
-  const StillPlaces still(rig);
-  const std::vector<bool> isShown = nodesOfScenes(document);
-  std::vector<std::string> touching;
+  const Rim rim(rig, places);
   const Json& nodes = document.list("nodes");
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const auto mesh = findIndex(nodes[n], "mesh", others.size());
-    if (!mesh || !isShown[n]) continue;
-    const Affine world = find(nodes[n], "skin") ? Affine{} : (*worlds)[n];
-    for (const std::size_t p : others[*mesh])
-      if (still.shared(positionsOf(document, document.list("meshes")[*mesh]["primitives"][p]),
-                       world) >= kFewest)
-        touching.push_back(placeOf(document, *mesh, p));
+  const std::vector<bool> isShown = nodesOfScenes(document);
+  std::vector<std::vector<std::size_t>> shownBy(others.size());  // [meshes]
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (const auto mesh = findIndex(nodes[n], "mesh", others.size()); mesh && isShown[n])
+      shownBy[*mesh].push_back(n);
+  std::vector<std::string> touching;
+  std::size_t lookedAt = 0;
+  for (std::size_t m = 0; m < others.size(); ++m) {
+    if (shownBy[m].empty()) continue;
+    for (const std::size_t p : others[m]) {
+      const auto vertices = verticesOf(document, document.list("meshes")[m]["primitives"][p]);
+      const Box box(vertices);
+      const auto meets = [&](std::size_t n) {
+        const Affine world = find(nodes[n], "skin") ? Affine{} : (*worlds)[n];
+        if (!rim.isNear(placed(box, world)) || lookedAt > kMostLookedAt) return false;
+        lookedAt += vertices.size();
+        return rim.meets(vertices, world);
+      };
+      if (std::ranges::any_of(shownBy[m], meets)) touching.push_back(placeOf(document, m, p));
+    }
   }
   if (touching.empty()) return {};
   return fmt::format(
-      "Beside the face, up to the tolerance from it, slits may show at {}; to close them, give "
-      "what meets the face there a morph target that moves nothing, so that it is part of the "
-      "face.",
+      "Slits as wide as the tolerance may show between the face and {}; to close them, give what "
+      "meets the face there a morph target that moves nothing, so that it is part of the face.",
       io::fewOf(touching, 3));
 }
 

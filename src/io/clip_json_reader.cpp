@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
@@ -91,6 +92,7 @@ class ClipJsonReader {
   // ---- MediaPipe: every frame names its scores ----
 
   using Scores = std::map<std::string, double>;
+  static constexpr std::array kHead{"HeadYaw", "HeadPitch", "HeadRoll"};
 
   Result<Clip> readMediaPipe(const Json& frames) {
     if (frames.empty()) return failFile("has no frames");
@@ -108,10 +110,25 @@ class ClipJsonReader {
     if (brokenTransforms_ > 0)
       warn(
           fmt::format("{} of {} frames have a transformation of the face that is no matrix of 4 × "
-                      "4 numbers; how the head turns there is left out.",
+                      "4 numbers; the head stands there as in the frame before.",
                       brokenTransforms_, frames.size()));
+    keepHeads(scores);
     checkUnit(times);
     return clipOf(times, scores);
+  }
+
+  /// Where a frame does not tell how the head turns, it stands as in the one before, or else as in
+  /// the first that does.
+  static void keepHeads(std::vector<Scores>& scores) {
+    const auto tells = [](const Scores& frame) { return frame.contains(kHead[0]); };
+    auto last = std::ranges::find_if(scores, tells);
+    if (last == scores.end()) return;
+    for (auto frame = scores.begin(); frame != scores.end(); ++frame) {
+      if (tells(*frame))
+        last = frame;
+      else if (!frame->empty())
+        for (const char* angle : kHead) (*frame)[angle] = last->at(angle);
+    }
   }
 
   Result<double> readTime(const Json& frame, std::size_t f) const {
@@ -193,9 +210,9 @@ class ClipJsonReader {
     const auto [angles, isBroken] = io::faceTransformOf(frame);
     brokenTransforms_ += isBroken;
     if (!angles) return;
-    scores["HeadYaw"] = angles->yaw;
-    scores["HeadPitch"] = angles->pitch;
-    scores["HeadRoll"] = angles->roll;
+    scores[kHead[0]] = angles->yaw;
+    scores[kHead[1]] = angles->pitch;
+    scores[kHead[2]] = angles->roll;
   }
   // The categories are beside the time, or belong to the first of the faces found: an object in
   // JavaScript, the list itself in Python. A frame without a face has none.

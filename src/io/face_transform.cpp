@@ -1,9 +1,9 @@
 #include "io/face_transform.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace sweepface::io {
 
@@ -11,21 +11,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The numbers of a matrix of 4 × 4, row after row or column after column as they stand; or none.
-std::optional<std::array<double, 16>> numbersOf(const Json& list) {
-  std::array<double, 16> numbers{};
-  std::size_t count = 0;
-  const auto take = [&](const Json& number) {
-    if (!number.is_number() || count == numbers.size()) return false;
-    numbers[count] = number.get<double>();
-    return std::isfinite(numbers[count++]);
-  };
+/// Appends the numbers of a list of so many; false if it is anything else.
+bool takeNumbers(const Json& list, std::size_t count, std::vector<double>& numbers) {
+  if (!list.is_array() || list.size() != count) return false;
   for (const Json& item : list) {
-    const bool isRow = item.is_array() && item.size() == 4;
-    if (isRow ? !std::ranges::all_of(item, take) : !take(item)) return {};
+    if (!item.is_number() || !std::isfinite(item.get<double>())) return false;
+    numbers.push_back(item.get<double>());
   }
-  if (count != numbers.size()) return {};
-  return numbers;
+  return true;
 }
 
 struct Columns {
@@ -33,21 +26,25 @@ struct Columns {
 };
 
 std::optional<Columns> columnsOf(const Json& matrix) {
-  const bool isObject = matrix.is_object() && matrix.contains("data");
-  const Json& list = isObject ? matrix["data"] : matrix;
-  if (!list.is_array() || list.size() != (isObject ? 16 : 4)) return {};
-  const auto m = numbersOf(list);
-  if (!m) return {};
+  std::vector<double> m;
+  const auto data = matrix.is_object() ? matrix.find("data") : matrix.end();
+  const bool isObject = data != matrix.end();
+  if (isObject ? !takeNumbers(*data, 16, m)
+               : !matrix.is_array() || matrix.size() != 4 ||
+                     !std::ranges::all_of(matrix,
+                                          [&](const Json& row) { return takeNumbers(row, 4, m); }))
+    return {};
   const std::size_t down = isObject ? 1 : 4, across = isObject ? 4 : 1;
   const auto column = [&](std::size_t c) {
-    return Vec3{(*m)[c * across], (*m)[c * across + down], (*m)[c * across + 2 * down]};
+    return Vec3{m[c * across], m[c * across + down], m[c * across + 2 * down]};
   };
   return Columns{column(0), column(1), column(2)};
 }
 
 /// The angles of Ry · Rx · Rz, with columns of any length.
 std::optional<Angles> anglesOf(const Columns& turned) {
-  const double x = norm(turned.x), y = norm(turned.y), z = norm(turned.z);
+  const auto length = [](const Vec3& v) { return std::hypot(v.x, v.y, v.z); };
+  const double x = length(turned.x), y = length(turned.y), z = length(turned.z);
   if (!(x > 0 && y > 0 && z > 0)) return {};
   return Angles{.yaw = std::atan2(turned.z.x, turned.z.z),
                 .pitch = std::asin(std::clamp(-turned.z.y / z, -1.0, 1.0)),

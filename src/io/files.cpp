@@ -227,6 +227,11 @@ Result<std::string> readFile(const fs::path& path) {
   return bytes;
 }
 
+bool isGltf(const fs::path& path) {
+  const std::string kind = extensionOf(path);
+  return kind == ".glb" || kind == ".gltf" || kind == ".vrm";
+}
+
 std::string extensionOf(const fs::path& path) {
   std::string text = path.extension().string();
   if (const std::string name = path.filename().string(); text.empty() && name.starts_with('.'))

@@ -60,6 +60,8 @@ Result<void> checkOutput(const Rig& rig, const RigOutput& output) {
     return differ("clip", output.clip->names.size());
   if (output.clip)
     if (auto ok = checkClip(*output.clip); !ok) return ok;
+  if (const double m = output.metersPerUnit; m != 0 && !(m >= 1e-9 && m <= 1e9))
+    return fail("Metres a unit are between 1e-9 and 1e9, or 0 for what is usual.");
   if (output.lod < 0) return fail("A level of detail is 0 or more.");
   return output.grid ? checkGrid(rig, *output.grid, output.lod) : Result<void>{};
 }

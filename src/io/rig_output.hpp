@@ -14,6 +14,7 @@ struct RigOutput {
   const Tessellation* grid = nullptr;
   const Weights& weights;
   const Clip* clip = nullptr;
+  double metersPerUnit = 0;
 };
 /// Refuses what no such file can hold.
 Result<void> checkOutput(const Rig& rig, const RigOutput& output);

@@ -25,11 +25,6 @@ bool isMesh(const fs::path& path) {
   return kind == ".obj" || kind == ".ply";
 }
 
-bool isGltf(const fs::path& path) {
-  const std::string kind = extensionOf(path);
-  return kind == ".glb" || kind == ".gltf" || kind == ".vrm";  // avatars: a .glb by another name
-}
-
 std::unexpected<Error> unknownKind(const fs::path& path) {
   if (path.empty())
     return fail("The name of a mesh is empty, as an unset variable leaves it; name the file.");
@@ -48,9 +43,10 @@ std::unexpected<Error> unknownKind(const fs::path& path) {
     return fail(fmt::format(
         "{} is a face already, and holds no mesh; export it as an .obj or a .glb first.",
         path.string()));
-  return fail(fmt::format(
-      "{} is neither an .obj nor a .ply file, nor a .glb or .gltf; export the mesh as one of them.",
-      path.string()));
+  return fail(
+      fmt::format("{} is neither an .obj nor a .ply file, nor a .glb, .gltf or .vrm; export the "
+                  "mesh as one of them.",
+                  path.string()));
 }
 
 Result<Paths> meshesIn(const fs::path& folder, const fs::path& neutral) {

@@ -35,9 +35,8 @@ struct GridMesh {
 };
 
 /// Builds the grid mesh of a rig. Vertices within `rounding` of each other in all poses may be
-/// merged (weldRounded()). Warns of open edges no further apart than `gap`, or ten times as far in
-/// targets alone. Fails if a face has
-/// thousands of corners, or if no face is left.
+/// merged (weldRounded()). Warns of open edges no further apart than `gap`, or not much further in
+/// targets alone. Fails if a face has thousands of corners, or if no face is left.
 Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding = 0, double gap = 0);
 
 }  // namespace sweepface

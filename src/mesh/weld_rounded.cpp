@@ -31,7 +31,7 @@ constexpr double kRoundingOfEdges = 1e-3, kGapOfEdges = 0.05;
 /// any edge of either that is longer than `within`, and at most `inNeutral` in the neutral.
 class Neighbours {
  public:
-  Neighbours(const MeshRig& rig, double within, double ofEdges, double inNeutral)
+  Neighbours(const MeshRig& rig, double within, double ofEdges, double inNeutral = INFINITY)
       : rig_(rig),
         allowed_(shortestEdges(rig.neutral, within, within / ofEdges)),
         inNeutral_(inNeutral) {
@@ -197,7 +197,7 @@ UnionFind setsOf(const std::vector<Index>& first) {
 }  // namespace
 
 double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
-  const Neighbours neighbours(rig, within, kRoundingOfEdges, within);
+  const Neighbours neighbours(rig, within, kRoundingOfEdges);
   UnionFind sets = setsOf(first);
   closePoints(rig.neutral.polygons, neighbours, sets);
   closeSlits(rig.neutral.polygons, neighbours, sets,

@@ -23,14 +23,15 @@ std::string leftOutOfUsd(const Rig& rig) {
   });
   std::vector<std::string> kinds;
   for (const auto& [isThere, kind] :
-       {std::pair(!gltf::leftOut(*document, *parts).empty(), "other meshes"),
+       {std::pair(!gltf::leftOut(*document, *parts).empty(), "other meshes or copies"),
         {has("skins"), "skins"},
         {has("animations"), "animations"},
         {isColoured, "colours of vertices"}})
     if (isThere) kinds.emplace_back(kind);
   if (kinds.empty()) return {};
-  return fmt::format("Of the scene that the face came with a USD file has no {}; a .glb has them.",
-                     fmt::join(kinds, ", "));
+  return fmt::format(
+      "A USD file leaves out {} of the scene that the face came with; a .glb keeps them.",
+      fmt::join(kinds, " and "));
 }
 
 }  // namespace sweepface

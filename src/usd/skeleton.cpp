@@ -13,8 +13,11 @@ std::string matrixAt(const Vec3& origin) {
                      number(origin.x), number(origin.y), number(origin.z));
 }
 
-/// USD has the real part first.
-std::string rotation(const Quaternion& q) { return tuple(std::array{q[3], q[0], q[1], q[2]}); }
+/// USD has the real part first. A head turns about what is up.
+std::string rotation(const Quaternion& q, bool zUp) {
+  return zUp ? tuple(std::array{q[3], q[0], -q[2], q[1]})
+             : tuple(std::array{q[3], q[0], q[1], q[2]});
+}
 
 void addWeights(Text& text, const Rig& rig, const UsdOptions& options) {
   const std::vector<std::string> names = rig.targetNames();
@@ -36,7 +39,8 @@ void addRotations(Text& text, const HeadTrack& head, const UsdOptions& options) 
   text.openSamples("quatf[] rotations");
   const std::vector<double> codes = timeCodes(head.times, options);
   for (std::size_t k = 0; k < codes.size(); ++k)
-    text.addSample(fmt::format("{}", codes[k]), fmt::format("[{}]", rotation(head.rotations[k])));
+    text.addSample(fmt::format("{}", codes[k]),
+                   fmt::format("[{}]", rotation(head.rotations[k], options.zUp)));
   text.close();
 }
 

@@ -49,7 +49,8 @@ Result<void> check(const HeadTrack& head, const UsdOptions& options) {
 }
 
 Result<void> check(const Rig& rig, const UsdOptions& options) {
-  const io::RigOutput output{options.lod, options.grid, options.weights, options.clip};
+  const io::RigOutput output{options.lod, options.grid, options.weights, options.clip,
+                             options.metersPerUnit};
   if (auto ok = io::checkOutput(rig, output); !ok) return ok;
   constexpr double kMostFaces = 1e8;
   const double lod = options.lod;
@@ -59,8 +60,6 @@ Result<void> check(const Rig& rig, const UsdOptions& options) {
     return fail("A weight is too large for the single precision of USD.");
   if (!(options.timeCodesPerSecond > 0 && options.timeCodesPerSecond < 1e9))
     return fail("Time codes a second are a number above 0 and below 1,000,000,000.");
-  if (!(options.metersPerUnit >= 0 && options.metersPerUnit < 1e30))
-    return fail("Metres a unit are a number above 0.");
   if (options.clip)
     if (auto ok = check(*options.clip, options); !ok) return ok;
   return options.head ? check(*options.head, options) : Result<void>{};

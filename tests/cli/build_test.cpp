@@ -36,7 +36,7 @@ TEST_F(Build, IsNotMistakenForOtherCommands) {
                     "make a face of it first: `sweepface build vase.wire.json -o face.sweep`."));
   folder.file("my vase.wire.json", vaseText());
   EXPECT_TRUE(
-      fails("info 'my vase.wire.json'", "`sweepface build \"my vase.wire.json\" -o face.sweep`."));
+      fails("info 'my vase.wire.json'", "`sweepface build 'my vase.wire.json' -o face.sweep`."));
   EXPECT_TRUE(fails("build vase.sweep -o other.sweep",
                     "`sweepface wireframe vase.sweep -o face.wire.json`."));
   EXPECT_TRUE(fails("convert vase.sweep -o other.sweep", "vase.sweep is a face already"));

@@ -307,7 +307,7 @@ TEST_F(PlayClip, RefusesWhatCannotBe) {
   EXPECT_TRUE(fails(command + "--clip take.csv",
                     "take.csv, line 3: the timecode '0' is before the one above"));
   EXPECT_TRUE(fails(command + "--clip other.csv", "none of its 1 names is a target"));
-  EXPECT_TRUE(fails(command + "--clip take.txt", "neither a .csv, a .json, a .glb nor a .gltf"));
+  EXPECT_TRUE(fails(command + "--clip take.txt", "neither a .csv, a .json, a .glb, a .gltf nor"));
   EXPECT_TRUE(fails(command + "--clip take.csv --to smile=1", "excludes", 2));
   EXPECT_TRUE(fails(command + "--to smile=1 --smooth", "--clip", 2));
   EXPECT_TRUE(fails(command, "Say where to go"));

@@ -174,6 +174,10 @@ TEST_F(Following, SaysWhatWouldCombineIfItWereSpeltAlike) {
                {"jawOpen+smile", moved},
                {"fixOf_jawOpen_smile", moved},
                {"smileMore", moved},
+               {"smile2", moved},
+               {"expression1", moved},
+               {"expression10", moved},
+               {"expression1_jaw2", moved},
                {"smile_jawOpen", moved}});
   const std::string said = run("export face.sweep -o out.obj --combine").err;
   EXPECT_TRUE(

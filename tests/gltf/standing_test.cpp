@@ -13,17 +13,11 @@ Vec3 inMetres(const Vec3& p) { return kCentimetre * Vec3{p.x, p.z, -p.y}; }
 /// A face of a plane that came without a scene.
 Rig sceneless() { return convert(withTargets(plane())).value().rig; }
 
-GlbOptions standing() {
-  GlbOptions options;
-  options.metersPerUnit = kCentimetre;
-  options.zUp = true;
-  return options;
-}
+GlbOptions standing() { return {.metersPerUnit = kCentimetre, .zUp = true}; }
 
-void expectNear(const std::vector<Vec3>& found, const std::vector<Vec3>& expected, double within) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t v = 0; v < found.size(); ++v)
-    EXPECT_LE(norm(found[v] - inMetres(expected[v])), within) << v;
+std::vector<Vec3> inMetres(std::vector<Vec3> positions) {
+  for (Vec3& p : positions) p = inMetres(p);
+  return positions;
 }
 
 TEST(Standing, AFaceWithoutASceneIsInMetresWithYUp) {
@@ -35,9 +29,10 @@ TEST(Standing, AFaceWithoutASceneIsInMetresWithYUp) {
     const auto glb = parseGltf(formatGlb(rig, options).value(), "face.glb", {});
     ASSERT_TRUE(glb) << glb.error().message;
     const double within = kCentimetre * (quantized ? 1e-3 : 1e-5);
-    expectNear(glb->rig.neutral.positions, asItIs.neutral.positions, within);
+    testing::expectNear(glb->rig.neutral.positions, inMetres(asItIs.neutral.positions), within);
     for (std::size_t k = 0; k < rig.targets.size(); ++k)
-      expectNear(glb->rig.targets[k].positions, asItIs.targets[k].positions, within);
+      testing::expectNear(glb->rig.targets[k].positions, inMetres(asItIs.targets[k].positions),
+                          within);
   }
 }
 
@@ -65,8 +60,15 @@ TEST(Standing, ScenesAreInMetresAlready) {
         "The scene that the face came with is in metres, with y up; leave metres a unit and z "
         "up out.");
   }
-  options.metersPerUnit = std::nan("");
-  EXPECT_FALSE(formatGlb(sceneless(), options));
+}
+
+TEST(Standing, UnitsAreOfAPlausibleLength) {
+  for (const double unit : {std::nan(""), -1.0, 1e-10, 1e10}) {
+    const auto refused = formatGlb(sceneless(), {.metersPerUnit = unit});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              "Metres a unit are between 1e-9 and 1e9, or 0 for what is usual.");
+  }
 }
 
 }  // namespace

@@ -60,6 +60,23 @@ TEST(FaceTransform, MayBeMissing) {
   }
 }
 
+TEST(FaceTransform, GoesOnFromTheFrameBeforeWhereThereIsNone) {
+  const auto frame = [](double turned, bool tells) {
+    const std::string matrix =
+        fmt::format(R"([[{0}, 0, {1}, 0], [0, 1, 0, 0], [-{1}, 0, {0}, 0], [0, 0, 0, 1]])",
+                    std::cos(turned), std::sin(turned));
+    return R"({"categories": [{"categoryName": "jawOpen", "score": 1}])" +
+           (tells ? R"(, "facial_transformation_matrixes": [)" + matrix + "]}" : "}");
+  };
+  const auto clip = parseClipJson("[" + frame(0, false) + "," + frame(0.5, true) + "," +
+                                      frame(0, false) + "," + frame(0.25, true) + "]",
+                                  "take.json", 1);
+  ASSERT_TRUE(clip) << clip.error().message;
+  const ClipAngles angles(*clip);
+  for (const auto& [seconds, yaw] : {std::pair(0, 0.5), {1, 0.5}, {2, 0.5}, {3, 0.25}})
+    EXPECT_NEAR(angles.at(*clip, seconds).head.yaw, yaw, 1e-12) << seconds;
+}
+
 TEST(FaceTransform, OfAnotherShapeIsLeftOutWithAWarning) {
   for (const char* wrong :
        {"5", "[1, 0, 0, 0]", R"({"data": [1, 0, 0]})", "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]",
@@ -71,7 +88,7 @@ TEST(FaceTransform, OfAnotherShapeIsLeftOutWithAWarning) {
     EXPECT_EQ(clip->warnings,
               std::vector<std::string>{
                   "take.json: 1 of 1 frames have a transformation of the face that is no matrix of "
-                  "4 × 4 numbers; how the head turns there is left out."});
+                  "4 × 4 numbers; the head stands there as in the frame before."});
   }
 }
 

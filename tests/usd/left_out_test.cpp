@@ -19,7 +19,8 @@ TEST(LeftOutOfUsd, AreOtherMeshesSkinsAnimationsAndColours) {
   glb.add("nodes", {{"mesh", 1}});
   EXPECT_EQ(
       leftOutOfUsd(converted(glb)),
-      "Of the scene that the face came with a USD file has no other meshes; a .glb has them.");
+      "A USD file leaves out other meshes or copies of the scene that the face came with; a .glb "
+      "keeps them.");
   glb.primitive()["attributes"]["COLOR_0"] = glb.addVectors(std::vector<Vec3>(9, {1, 0, 0}));
   glb.add("skins", {{"joints", {1}}});
   glb.add(
@@ -30,8 +31,8 @@ TEST(LeftOutOfUsd, AreOtherMeshesSkinsAnimationsAndColours) {
                                                 "SCALAR", 1)},
                       {"output", glb.addVectors({{1, 1, 1}})}}})}});
   EXPECT_EQ(leftOutOfUsd(converted(glb)),
-            "Of the scene that the face came with a USD file has no other meshes, skins, "
-            "animations, colours of vertices; a .glb has them.");
+            "A USD file leaves out other meshes or copies and skins and animations and colours of "
+            "vertices of the scene that the face came with; a .glb keeps them.");
 }
 
 }  // namespace

@@ -217,6 +217,13 @@ TEST(UsdWriter, TurnsTheHeadAboutItsPivot) {
             std::vector<double>(pointsOf(layer).size(), 1));
 }
 
+TEST(UsdWriter, TurnsTheHeadAboutWhatIsUp) {
+  const HeadTrack head{{0}, {{0.1, 0.7, 0.5, 0.5}}, {}};
+  UsdOptions options;
+  options.head = &head, options.zUp = true;
+  EXPECT_EQ(layerOf(grid(), options).samples(kAnimation).at(0).second, "[(0.5, 0.1, -0.5, 0.7)],");
+}
+
 TEST(UsdWriter, SaysHowLongAUnitIsAndWhatIsUp) {
   Rig rig = grid();
   const auto metres = [&](const UsdOptions& options = {}) {

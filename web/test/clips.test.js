@@ -193,9 +193,12 @@ test('frames of MediaPipe tell how the head turns', () => {
     [pitch, -roll, -yaw, 1].forEach((angle, k) => assert.ok(Math.abs(clip.weights[k] - angle) < 1e-12, clip.names[k]));
     assert.deepEqual(clip.warnings, []);
   }
+  const told = {facial_transformation_matrixes: [rows]};
+  const several = readClip(JSON.stringify([{}, told, {}].map((transform, f) => ({...frame(transform), timestamp: 33 * f}))));
+  assert.deepEqual([0, 1, 2].map((f) => several.weights[4 * f + 2]), Array(3).fill(read(told).weights[2]));
   for (const none of [{}, {facialTransformationMatrixes: []}, {facialTransformationMatrixes: null}])
     assert.deepEqual(read(none), read({}));
-  for (const wrong of [[5], {}, [[1, 2]], [{data: [1]}], [{data: rows}], [{data: data.map((x, k) => k < 4 ? 0 : x)}]]) {
+  for (const wrong of ['', [5], {}, [[1, 2]], [{data: [1]}], [{data: rows}], [{data: data.map((x, k) => k < 4 ? 0 : x)}]]) {
     const clip = read({facialTransformationMatrixes: wrong});
     assert.deepEqual(clip.names, ['a']);
     assert.match(clip.warnings[0], /^take.json: 1 of 1 frames have a transformation of the face that is no matrix of 4 × 4/);
