@@ -49,6 +49,7 @@ class Rim {
     const std::vector<bool> isOnRim = onRim(rig.neutral.polygons, places);
     for (std::size_t v = 0; v < places.size(); ++v) {
       const Vec3& p = rig.neutral.positions[v];
+      if (!isInReach(p)) continue;
       all_.insert(cellOf(p));
       if (isOnRim[places[v]] && std::ranges::none_of(rig.targets, [&](const MeshTarget& target) {
             return norm(target.positions[v] - p) > size_;
@@ -69,7 +70,7 @@ class Rim {
     std::size_t copied = 0;
     for (const Vec3& vertex : vertices) {
       const Vec3 p = world.point(vertex);
-      if (!(norm(p) < 1e15 * size_)) continue;  // beyond whole numbers of cells
+      if (!isInReach(p)) continue;
       const Cell cell = cellOf(p);
       copied += all_.contains(cell);
       if (rim_.contains(cell)) found.insert(cell);
@@ -78,6 +79,8 @@ class Rim {
   }
 
  private:
+  /// Whether cells can be counted up to there.
+  bool isInReach(const Vec3& p) const { return norm(p) < 1e15 * size_; }
   Cell cellOf(const Vec3& p) const {
     return {std::llround(p.x / size_), std::llround(p.y / size_), std::llround(p.z / size_)};
   }
