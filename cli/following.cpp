@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <fmt/ranges.h>
-#include <functional>
 #include <ranges>
+#include <utility>
 
 #include "sweepface/arcs.hpp"
 
@@ -64,7 +64,7 @@ std::vector<Index> leadersByLength(const std::vector<std::string>& names,
   std::vector<Index> order;
   for (Index k = 0; k < std::ssize(names); ++k)
     if (std::ranges::find(followers, k, &Follower::target) == followers.end()) order.push_back(k);
-  std::ranges::stable_sort(order, std::greater{}, [&](Index k) { return names[k].size(); });
+  std::ranges::sort(order, {}, [&](Index k) { return std::pair(-std::ssize(names[k]), k); });
   return order;
 }
 
