@@ -190,4 +190,11 @@ Result<std::vector<double>> decode(const Document& document, const Accessor& acc
                           static_cast<std::size_t>(bad - values.begin()) / accessor.components()));
 }
 
+std::vector<Vec3> asVectors(const std::vector<double>& values) {
+  std::vector<Vec3> vectors(values.size() / 3);
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+    vectors[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
+  return vectors;
+}
+
 }  // namespace sweepface::gltf

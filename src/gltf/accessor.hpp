@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "sweepface/vec.hpp"
+
 #include "gltf/component.hpp"
 #include "gltf/document.hpp"
 
@@ -38,5 +40,8 @@ Result<Accessor> accessorAt(const Document& document, std::size_t index);
 /// All values, component by component, normalised if the accessor says so. All are finite. Refuses
 /// more zeros than a file of this size can mean.
 Result<std::vector<double>> decode(const Document& document, const Accessor& accessor);
+
+/// Values in threes.
+std::vector<Vec3> asVectors(const std::vector<double>& values);
 
 }  // namespace sweepface::gltf

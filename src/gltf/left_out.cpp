@@ -1,7 +1,6 @@
 #include "gltf/left_out.hpp"
 
 #include <fmt/format.h>
-#include <set>
 
 #include "gltf/nodes.hpp"
 #include "io/text.hpp"
@@ -20,26 +19,27 @@ std::vector<std::size_t> timesShown(const Document& document) {
   return times;
 }
 
-/// Primitives that are not in the face, of meshes that have others in it.
-std::vector<std::string> stillPrimitives(const Document& document, const Parts& parts) {
-  std::set<std::pair<std::size_t, std::size_t>> ofFace;
-  for (const Part& part : parts.parts)
-    ofFace.emplace(parts.meshes[parts.runs[part.run].rigMesh].mesh, part.primitive);
-  std::vector<std::string> places;
-  for (const RigMesh& mesh : parts.meshes)
-    for (std::size_t p = 0; p < listOf(document.list("meshes")[mesh.mesh], "primitives").size();
-         ++p)
-      if (!ofFace.contains({mesh.mesh, p})) places.push_back(placeOf(document, mesh.mesh, p));
-  return places;
-}
-
 }  // namespace
+
+std::vector<std::set<std::size_t>> otherPrimitives(const Document& document, const Parts& parts) {
+  const Json& meshes = document.list("meshes");
+  std::vector<std::set<std::size_t>> others(meshes.size());
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    for (std::size_t p = 0; p < listOf(meshes[m], "primitives").size(); ++p) others[m].insert(p);
+  for (const Part& part : parts.parts)
+    others[parts.meshes[parts.runs[part.run].rigMesh].mesh].erase(part.primitive);
+  return others;
+}
 
 std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
   const std::vector<std::size_t> times = timesShown(document);
+  const std::vector<std::set<std::size_t>> others = otherPrimitives(document, parts);
   std::vector<bool> isOfFace(times.size());
-  for (const RigMesh& mesh : parts.meshes) isOfFace[mesh.mesh] = true;
-  std::vector<std::string> still = stillPrimitives(document, parts), again, warnings;
+  std::vector<std::string> still, again, warnings;
+  for (const RigMesh& mesh : parts.meshes) {
+    isOfFace[mesh.mesh] = true;
+    for (const std::size_t p : others[mesh.mesh]) still.push_back(placeOf(document, mesh.mesh, p));
+  }
   for (std::size_t m = 0; m < times.size(); ++m) {
     if (!isOfFace[m] && times[m] > 0) still.push_back(placeOf(document, m));
     if (isOfFace[m] && times[m] > 1) again.push_back(placeOf(document, m));

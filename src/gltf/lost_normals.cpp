@@ -21,12 +21,12 @@ bool areApart(const Vec3& a, const Vec3& b) {
 
 /// The normals of a primitive's vertices; empty if it has none or some are not numbers: the face
 /// can do without.
-std::vector<double> normalsOf(const Document& document, const Json& primitive) {
+std::vector<Vec3> normalsOf(const Document& document, const Json& primitive) {
   const Json* const number = find(*find(primitive, "attributes"), "NORMAL");
   if (!number) return {};
   const auto accessor = accessorAt(document, number->get<std::size_t>());
   if (!accessor || !accessor->hasData()) return {};
-  return decode(document, *accessor).value_or(std::vector<double>{});
+  return asVectors(decode(document, *accessor).value_or(std::vector<double>{}));
 }
 
 /// [places] The sum of the triangles' normals there, weighted by their areas.
@@ -56,11 +56,10 @@ std::vector<Place> placesOf(const Document& document, const Parts& parts, const 
   for (const Part& part : parts.parts) {
     if (isRead[part.run]) continue;
     isRead[part.run] = true;
-    const std::vector<double> normals = normalsOf(document, primitiveOf(document, parts, part));
+    const std::vector<Vec3> normals = normalsOf(document, primitiveOf(document, parts, part));
     const Run& run = parts.runs[part.run];
-    for (std::size_t v = 0; v < normals.size() / 3; ++v) {
-      const double* const n = normals.data() + 3 * v;
-      const Vec3 normal{n[0], n[1], n[2]};
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+      const Vec3& normal = normals[v];
       const auto at = static_cast<std::size_t>(places[run.first + v]);
       Place& place = found[at];
       const Vec3 own = parts.meshes[run.rigMesh].world.transposed(expected[at]);

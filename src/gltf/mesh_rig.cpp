@@ -12,13 +12,6 @@
 namespace sweepface::gltf {
 namespace {
 
-std::vector<Vec3> asVectors(const std::vector<double>& values) {
-  std::vector<Vec3> vectors(values.size() / 3);
-  for (std::size_t k = 0; k < vectors.size(); ++k)
-    vectors[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
-  return vectors;
-}
-
 class RigReader {
  public:
   RigReader(const Document& document, const Parts& parts)

@@ -9,6 +9,7 @@
 
 #include "sweepface/box.hpp"
 
+#include "gltf/left_out.hpp"
 #include "gltf/nodes.hpp"
 #include "io/text.hpp"
 #include "mesh/each_edge.hpp"
@@ -20,7 +21,7 @@ namespace {
 constexpr double kTogether = 1e-5;
 // Meshes that meet share an edge at least; a single vertex may stand there by chance.
 constexpr std::size_t kFewest = 3;
-// Vertices that are looked at, over all nodes; many nodes may show one large mesh.
+// Elements that are looked at: many primitives may share an accessor, and many nodes show a mesh.
 constexpr std::size_t kMostLookedAt = std::size_t{1} << 22;
 
 using Cell = std::array<std::int64_t, 3>;
@@ -90,44 +91,41 @@ class Rim {
   Box box_;
 };
 
-/// [meshes] the primitives of triangles that are not of the face.
-std::vector<std::set<std::size_t>> othersOf(const Document& document, const Parts& parts) {
-  const Json& meshes = document.list("meshes");
-  std::vector<std::set<std::size_t>> others(meshes.size());
-  for (std::size_t m = 0; m < meshes.size(); ++m)
-    for (std::size_t p = 0; p < listOf(meshes[m], "primitives").size(); ++p) others[m].insert(p);
-  for (const Part& part : parts.parts)
-    others[parts.meshes[parts.runs[part.run].rigMesh].mesh].erase(part.primitive);
-  return others;
-}
+/// Reads what may not be sound, as far as there are elements left that may be looked at.
+class Reader {
+ public:
+  Reader(const Document& document, std::size_t& left) : document_(document), left_(left) {}
 
-/// What an accessor holds; nothing if it cannot be read.
-std::vector<double> valuesOf(const Document& document, const Json& holder, std::string_view key) {
-  const auto index = findIndex(holder, key, document.list("accessors").size());
-  if (!index) return {};
-  const auto accessor = accessorAt(document, *index);
-  if (!accessor) return {};
-  return decode(document, *accessor).value_or(std::vector<double>{});
-}
+  /// The vertices of the triangles of a primitive; none if it has none or cannot be read.
+  std::vector<Vec3> verticesOf(const Json& primitive) {
+    const Json* const attributes = find(primitive, "attributes");
+    if (!attributes || findIndex(primitive, "mode", fanMode + 1).value_or(listMode) < listMode)
+      return {};
+    const std::vector<Vec3> all = asVectors(valuesOf(*attributes, "POSITION"));
+    if (!find(primitive, "indices")) return all;
+    std::vector<bool> isUsed(all.size());
+    for (const double index : valuesOf(primitive, "indices"))
+      if (index >= 0 && index < static_cast<double>(all.size()))
+        isUsed[static_cast<std::size_t>(index)] = true;
+    std::vector<Vec3> used;
+    for (std::size_t v = 0; v < all.size(); ++v)
+      if (isUsed[v]) used.push_back(all[v]);
+    return used;
+  }
 
-/// The vertices of the triangles of a primitive; none if it has none or cannot be read.
-std::vector<Vec3> verticesOf(const Document& document, const Json& primitive) {
-  const Json* const attributes = find(primitive, "attributes");
-  if (!attributes || findIndex(primitive, "mode", fanMode + 1).value_or(listMode) < listMode)
-    return {};
-  const std::vector<double> values = valuesOf(document, *attributes, "POSITION");
-  std::vector<Vec3> all;
-  for (std::size_t k = 0; k + 2 < values.size(); k += 3)
-    all.push_back({values[k], values[k + 1], values[k + 2]});
-  if (!find(primitive, "indices")) return all;
-  std::vector<bool> isUsed(all.size());
-  for (const double index : valuesOf(document, primitive, "indices"))
-    if (index < static_cast<double>(all.size())) isUsed[static_cast<std::size_t>(index)] = true;
-  std::vector<Vec3> used;
-  for (std::size_t v = 0; v < all.size(); ++v)
-    if (isUsed[v]) used.push_back(all[v]);
-  return used;
-}
+ private:
+  std::vector<double> valuesOf(const Json& holder, std::string_view key) {
+    const auto index = findIndex(holder, key, document_.list("accessors").size());
+    if (!index) return {};
+    const auto accessor = accessorAt(document_, *index);
+    if (!accessor || accessor->count > left_) return {};
+    left_ -= accessor->count;
+    return decode(document_, *accessor).value_or(std::vector<double>{});
+  }
+
+  const Document& document_;
+  std::size_t& left_;
+};
 
 /// The box around what a transform makes of a box.
 Box placed(const Box& box, const Affine& world) {
@@ -143,7 +141,7 @@ Box placed(const Box& box, const Affine& world) {
 
 std::string touchingMeshes(const Document& document, const Parts& parts, const MeshRig& rig,
                            std::span<const Index> places) {
-  const auto others = othersOf(document, parts);
+  const auto others = otherPrimitives(document, parts);
   const auto worlds = worldMatrices(document);
   if (!worlds || std::ranges::all_of(others, &std::set<std::size_t>::empty)) return {};
   const Rim rim(rig, places);
@@ -154,16 +152,17 @@ std::string touchingMeshes(const Document& document, const Parts& parts, const M
     if (const auto mesh = findIndex(nodes[n], "mesh", others.size()); mesh && isShown[n])
       shownBy[*mesh].push_back(n);
   std::vector<std::string> touching;
-  std::size_t lookedAt = 0;
+  std::size_t left = kMostLookedAt;
+  Reader reader(document, left);
   for (std::size_t m = 0; m < others.size(); ++m) {
     if (shownBy[m].empty()) continue;
     for (const std::size_t p : others[m]) {
-      const auto vertices = verticesOf(document, document.list("meshes")[m]["primitives"][p]);
+      const auto vertices = reader.verticesOf(document.list("meshes")[m]["primitives"][p]);
       const Box box(vertices);
       const auto meets = [&](std::size_t n) {
         const Affine world = find(nodes[n], "skin") ? Affine{} : (*worlds)[n];
-        if (!rim.isNear(placed(box, world)) || lookedAt > kMostLookedAt) return false;
-        lookedAt += vertices.size();
+        if (!rim.isNear(placed(box, world)) || vertices.size() > left) return false;
+        left -= vertices.size();
         return rim.meets(vertices, world);
       };
       if (std::ranges::any_of(shownBy[m], meets)) touching.push_back(placeOf(document, m, p));

@@ -11,8 +11,9 @@
 namespace sweepface {
 
 std::string leftOutOfUsd(const Rig& rig) {
+  if (rig.scene.empty()) return {};
   const auto document = gltf::parseScene(rig.scene);
-  if (rig.scene.empty() || !document) return {};
+  if (!document) return {};
   const auto parts = gltf::findPartsAnywhere(*document);
   if (!parts) return {};
   const auto has = [&](const char* list) { return !document->list(list).empty(); };

@@ -14,6 +14,7 @@
 #include "eval/shader_tables.hpp"
 #include "eval/tile_kernels.hpp"
 #include "faces.hpp"
+#include "greater.hpp"
 
 #ifdef SWEEPFACE_SIMD
 #include <hwy/targets.h>
@@ -66,10 +67,8 @@ std::vector<Vec3> surfacePositions(const Rig& rig, Index level,
 
 double largestDistance(const std::vector<float>& floats, const std::vector<Vec3>& wanted) {
   double most = 0;
-  for (std::size_t v = 0; v < wanted.size(); ++v) {
-    const double distance = norm(vectorOf(floats, v) - wanted[v]);
-    if (distance > most || std::isnan(distance)) most = distance;
-  }
+  for (std::size_t v = 0; v < wanted.size(); ++v)
+    most = greater(most, norm(vectorOf(floats, v) - wanted[v]));
   return most;
 }
 

@@ -78,6 +78,11 @@ TEST(Touching, WhatCannotBeReadDoesNotCount) {
   Glb broken = withBody(hangingFrom({6, 7, 8}));
   broken.attribute("POSITION", 1)["type"] = "SCALAR";
   EXPECT_EQ(warningsAbout(broken, "Slits"), 0u);
+  Glb beyond = withBody(hangingFrom({6, 7, 8}));
+  const std::size_t indices = beyond.addIndices({0, 65535, 300});
+  beyond.primitive(1)["indices"] = indices;
+  beyond.accessor(indices)["componentType"] = 5122;  // and so some are below 0
+  EXPECT_EQ(warningsAbout(beyond, "Slits"), 0u);
 }
 
 }  // namespace

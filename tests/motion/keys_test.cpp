@@ -6,6 +6,8 @@
 
 #include "sweepface/trajectory.hpp"
 
+#include "greater.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -32,10 +34,8 @@ double largestError(const Clip& clip, const CubicKeys& keys) {
       const double time = std::lerp(clip.times[f], clip.times[f + 1], part / 4.0);
       clip.at(time - clip.times.front(), wanted);
       keys.at(time, found);
-      for (std::size_t k = 0; k < wanted.size(); ++k) {
-        const double error = std::abs(wanted[k] - found[k]);
-        if (error > largest || std::isnan(error)) largest = error;
-      }
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        largest = testing::greater(largest, std::abs(wanted[k] - found[k]));
     }
   return largest;
 }

@@ -10,6 +10,8 @@
 
 #include "sweepface/timeline.hpp"
 
+#include "greater.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -383,8 +385,7 @@ double furthestApart(const Clip& a, const Clip& b, double seconds) {
   double most = 0;
   for (double t = 0; t < seconds; t += 2e-4) {
     a.at(t, x), b.at(t, y);
-    const double apart = std::abs(x[0] - y[0]);
-    if (apart > most || std::isnan(apart)) most = apart;
+    most = testing::greater(most, std::abs(x[0] - y[0]));
   }
   return most;
 }

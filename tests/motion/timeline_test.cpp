@@ -6,6 +6,8 @@
 
 #include "sweepface/trajectory.hpp"
 
+#include "greater.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -66,9 +68,7 @@ double furthestOff(const Clip& clip, double frequency) {
   const auto spring = Trajectory::spring({0, 0}, 1, {frequency, 0.1});
   double most = 0;
   for (double t = 0; t < 1; t += 3e-4)
-    if (const double off = std::abs(weight(clip, t, "a") - spring->at(t - 0.1).position);
-        off > most || std::isnan(off))
-      most = off;
+    most = testing::greater(most, std::abs(weight(clip, t, "a") - spring->at(t - 0.1).position));
   return most;
 }
 

@@ -6,6 +6,7 @@
 
 #include "sweepface/ode.hpp"
 
+#include "greater.hpp"
 #include "ode/oracle.hpp"
 
 // Compares the basis with an oracle of at least 50 digits, over random roots of every kind.
@@ -118,8 +119,7 @@ Largest compare(const SweepBasis& basis, const Equation& e) {
       const auto g = basis.at(u, order);
       for (int i = 0; i < 6; ++i) {
         const auto keep = [](double& x, const auto& y) {
-          const double size = std::abs(y.template convert_to<double>());
-          if (size > x || std::isnan(size)) x = size;
+          x = testing::greater(x, std::abs(y.template convert_to<double>()));
         };
         keep(largest.value[order][i], expected[order][i]);
         keep(largest.error[order][i],
@@ -137,9 +137,7 @@ double worstError(const SweepBasis& basis, const Equation& e) {
   double worst = 0;
   for (int order = 0; order < 4; ++order)
     for (int i = 0; i < 6; ++i)
-      if (const double error = largest.error[order][i] / largest.value[order][i];
-          error > worst || std::isnan(error))
-        worst = error;
+      worst = testing::greater(worst, largest.error[order][i] / largest.value[order][i]);
   return worst;
 }
 
@@ -175,14 +173,14 @@ void check(const Kind& kind, const Range& range, int count) {
             << " refused, worst error " << worst << "\n";
 }
 
-class Accuracy : public testing::TestWithParam<Kind> {};
+class Accuracy : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(Accuracy, isTwelveDigitsForRootsUpTo5) { check(GetParam(), slow, 600); }
 TEST_P(Accuracy, isTwelveDigitsForRootsUpTo20) { check(GetParam(), plain, 400); }
 TEST_P(Accuracy, isTwelveDigitsForRootsUpTo100) { check(GetParam(), fast, 20); }
 TEST_P(Accuracy, isNineDigitsForRootsUpTo500) { check(GetParam(), stiff, 2); }
 
-class AccuracyLong : public testing::TestWithParam<Kind> {};
+class AccuracyLong : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(AccuracyLong, isTwelveDigitsForRootsUpTo5) { check(GetParam(), slow, 4000); }
 TEST_P(AccuracyLong, isTwelveDigitsForRootsUpTo20) { check(GetParam(), plain, 4000); }
@@ -190,8 +188,8 @@ TEST_P(AccuracyLong, isTwelveDigitsForRootsUpTo100) { check(GetParam(), fast, 40
 TEST_P(AccuracyLong, isNineDigitsForRootsUpTo500) { check(GetParam(), stiff, 50); }
 
 const auto nameOf = [](const auto& test) { return std::string(test.param.name); };
-INSTANTIATE_TEST_SUITE_P(Roots, Accuracy, testing::ValuesIn(kinds), nameOf);
-INSTANTIATE_TEST_SUITE_P(Roots, AccuracyLong, testing::ValuesIn(kinds), nameOf);
+INSTANTIATE_TEST_SUITE_P(Roots, Accuracy, ::testing::ValuesIn(kinds), nameOf);
+INSTANTIATE_TEST_SUITE_P(Roots, AccuracyLong, ::testing::ValuesIn(kinds), nameOf);
 
 }  // namespace
 }  // namespace sweepface

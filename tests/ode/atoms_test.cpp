@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "greater.hpp"
+
 namespace sweepface::ode {
 namespace {
 
@@ -35,8 +37,7 @@ double worst(double a, double b, double u) {
   double largest = 0;
   // Waves of r swing through one unit, their odd parts through 1/r.
   const auto compare = [&](double found, const Exactly& exact, const Exactly& unit = 1) {
-    const double error = std::abs(static_cast<double>((found - exact) * unit));
-    if (error > largest || std::isnan(error)) largest = error;
+    largest = testing::greater(largest, std::abs(static_cast<double>((found - exact) * unit)));
   };
   const auto rootOf = [](const Exactly& s) { return Exactly(sqrt(abs(s))); };
   if (roots.kind == RootCase::Apart) {

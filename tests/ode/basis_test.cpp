@@ -21,7 +21,7 @@ const Named equations[] = {
     {"small", 3, -4},
 };
 
-class Basis : public testing::TestWithParam<Named> {
+class Basis : public ::testing::TestWithParam<Named> {
  protected:
   double a() const { return GetParam().a; }
   double b() const { return GetParam().b; }
@@ -118,7 +118,7 @@ TEST_P(Basis, staysAtItsEndsBeyondThem) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Equations, Basis, testing::ValuesIn(equations),
+INSTANTIATE_TEST_SUITE_P(Equations, Basis, ::testing::ValuesIn(equations),
                          [](const auto& test) { return std::string(test.param.name); });
 
 // Where the roots change their kind, or the library switches to another form of the solutions.
