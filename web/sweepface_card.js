@@ -1,7 +1,8 @@
 // Shared by the meshes of sweepface/gpu and sweepface/webgpu: tables in textures, the attributes that point into them,
 // and materials that follow one face each.
 import {BufferAttribute, DataTexture, NearestFilter, Vector3} from 'three';
-import {FaceMesh, expression, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
+import {FaceMesh, geometryOf, materialsOfClone, meet, share} from './sweepface_mesh.js';
+import {expression, follow, show} from './sweepface_moved.js';
 import {faceFrom} from './sweepface_values.js';
 
 /** Texels in a row: texel k of a texture is at (k mod 1024, k / 1024). */

@@ -1,4 +1,5 @@
 // Opens a .sweep file in a module: the options, and what all faces of the file share.
+import {isPacked, isSweep, withoutScene} from './sweepface_chunks.js';
 import {divider} from './sweepface_regions.js';
 import {bytesOf, isGiven, known, told} from './sweepface_values.js';
 import {compile, instantiate, isCompiled, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
@@ -38,21 +39,6 @@ function read(options) {
   const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
   const needsFull = Boolean(follow || eyes || divide || budget);
   return {name: String(name || 'The face'), follow, eyes, divide, lod, budget, wasm, needsFull};
-}
-
-/** Chunks that hold things unpacked, which takes a hundred times the bytes of a packed face. */
-const AS_THEY_ARE = ['EXAC', 'loos', 'drif', 'ordr', 'poly', 'texc', 'quad'];
-
-const MAGIC = 'SWEEPFC\x02';
-
-/** Whether a file holds only what the usual module reads. */
-function isPacked(bytes) {
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const textAt = (from, length) => String.fromCharCode(...bytes.subarray(from, from + length));
-  if (textAt(0, MAGIC.length) !== MAGIC) return false;
-  for (let at = MAGIC.length; at + 8 <= bytes.length; at += 12 + view.getUint32(at + 4, true))
-    if (AS_THEY_ARE.includes(textAt(at, 4))) return false;
-  return true;
 }
 
 /** What all faces of one file at one level of detail share. */
@@ -141,15 +127,16 @@ function refuseOthers(bytes, name) {
   const start = String.fromCharCode(...bytes.subarray(0, 64));
   if (/^\s*<(!doctype|html)/i.test(start))
     throw new Error(`${name} is a page of HTML, as servers send for what they do not have; check the address.`);
-  if (start.startsWith('glTF') || (!start.startsWith('SWEEPFC') && /\.(gltf|obj|ply)$/i.test(name)))
+  if (start.startsWith('glTF') || (!isSweep(bytes) && /\.(gltf|obj|ply)$/i.test(name)))
     throw new Error(`${name} is a file of meshes, not a face; make one of it first: sweepface convert.`);
 }
 
 /** Opens a file in the module that it and the options need. */
 export async function open(given, givenOptions) {
-  const bytes = bytesOf(given)?.slice();  // the caller may change or transfer it while the module loads
-  if (!bytes)
+  const all = bytesOf(given);
+  if (!all)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
+  const bytes = withoutScene(all);  // a copy: the caller may change or transfer it while the module loads
   const options = read(givenOptions), {wasm} = options;
   refuseOthers(bytes, options.name);
   if (isGiven(wasm) || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);

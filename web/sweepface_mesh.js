@@ -1,8 +1,8 @@
 // Shared by the meshes of sweepface/three, sweepface/gpu and sweepface/webgpu.
 import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial} from 'three';
+import {begin, isGone, movedByWeights, shown, takeInfluences} from './sweepface_moved.js';
 import {Pin} from './sweepface_pin.js';
 import {twinOf} from './sweepface_twin.js';
-import {isWeight} from './sweepface_values.js';
 
 /** Plain materials, named as in the source; double-sided, as mouths and lashes are seen from both sides. */
 function materialsOf(face) {
@@ -95,136 +95,49 @@ export function geometryOf(face, changing, fixed = {}) {
 }
 
 /**
- * What each kind of mesh defines for itself, under names that no class derived from it has by chance: `show` brings
- * weights to the screen, `follow` handles other changes, `meet` intersects rays with the face, `share` gives a clone
- * what it need not have twice, `materialsOfClone` makes a clone's materials, and `standing` returns the current
- * positions. `expression` is an object that identifies the current expression.
+ * What each kind of mesh defines for itself, under names that no class derived from it has by chance: `meet` intersects
+ * rays with the face, `share` gives a clone what it need not have twice, and `materialsOfClone` makes a clone's
+ * materials. `standing` returns the current positions.
  */
-export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
-export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing'), expression = Symbol('expression');
+export const meet = Symbol('meet'), share = Symbol('share'), standing = Symbol('standing');
+export const materialsOfClone = Symbol('materialsOfClone');
 
-/**
- * A face in a scene. Weights can be set at any time; `update` brings them to the screen. They are also written to
- * `morphTargetInfluences` and read back from there, so that whatever moves morph targets moves a face.
- */
-export class FaceMesh extends Mesh {
-  #moving;
-  #isGone = false;
-  #told = [];  // the influences as they were last written
+/** A face as one mesh in a scene. Whatever moves morph targets moves it, too. */
+export class FaceMesh extends movedByWeights(Mesh) {
   #group = new Set();  // of itself and its clones, which share materials: WeakRefs
   #self = new WeakRef(this);
   #positions;
-  #expression = {};  // a new object whenever weights or eyes are set
-  #shown;  // the expression that is on show
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
-    this.face = face;
     this.#group.add(this.#self);
-    this.#moving = face.advance(0);
     this.morphTargetDictionary = Object.fromEntries(face.names.map((name, k) => [name, k]));
     this.morphTargetInfluences = face.names.map(() => 0);
-    this.#tellInfluences();
+    this[begin](face, [{mesh: this, targets: face.names.map((_, k) => k)}]);
   }
 
-  get names() { return this.face.names; }
-  get weights() { return this.face.weights; }
-  get pose() { return this.face.pose; }
-  get eyeCount() { return this.face.eyeCount; }
-  get regions() { return this.face.regions; }
-
-  weightsIn(region) { return this.face.weightsIn(region); }
-
-  /** An object that identifies the current expression. */
-  get [expression]() { return this.#expression; }
-
-  look(pose) {
-    this.face.look(pose);
-    this.#expression = {};
-  }
-
-  setWeights(weights, region) {
-    this.#takeInfluences();
-    this.face.setWeights(weights, region);
-    this.#tellInfluences();
-  }
-
-  reset() {
-    this.face.reset();
-    this.#tellInfluences();
-  }
-
-  moveTo(goals, drive, region) {
-    this.#takeInfluences();
-    this.face.moveTo(goals, drive, region);
-    this.advance(0);  // cuts are there at once
-  }
-
-  push(name, velocityChange, drag) {
-    this.#takeInfluences();
-    this.face.push(name, velocityChange, drag);
-    this.#moving = true;
-  }
-
-  /** Advances the face without showing it; returns whether anything still moves. */
-  advance(seconds) {
-    this.#takeInfluences();
-    const moving = this.face.advance(seconds);
-    if (moving || this.#moving) this.#tellInfluences();  // once more when it has stopped
-    return this.#moving = moving;
-  }
-
-  /** Sets the weights whose influences others have set. Ignores values that are no weights, which others may write. */
-  #takeInfluences() {
-    const influences = this.morphTargetInfluences ?? [], {face} = this;
-    const isSet = (told, k) => influences[k] !== told && isWeight(influences[k]);
-    if (!this.#told.some(isSet)) return;
-    const set = face.names.map((name, k) => [name, influences[k]]).filter((_, k) => isSet(this.#told[k], k));
-    face.setWeights(Object.fromEntries(set));
-    this.#tellInfluences();
-  }
-
-  /** Called when weights have changed: copies them to the influences, if there are any. */
-  #tellInfluences() {
-    const influences = this.morphTargetInfluences ?? [], weights = this.face.weightValues;
-    for (let k = 0; k < weights.length; ++k) {
-      if (k < influences.length) Reflect.set(influences, k, weights[k]);  // a frozen array stays as it is
-      this.#told[k] = influences[k];  // which may be rounded, or missing
-    }
-    this.#expression = {};
-  }
-
-  /**
-   * Call it once a frame with the seconds since the last; costs nothing while nothing moves. Returns whether there is
-   * something new to draw, or will be in the next frame.
-   */
-  update(seconds = 0) {
-    if (this.#isGone) return false;
-    this.#takeInfluences();
-    if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
-    this[follow]();
-    const isNew = this.#shown !== this.#expression;
-    if (isNew) this[show]();
-    this.#shown = this.#expression;
+  update(seconds) {
+    const isNew = super.update(seconds);
     this.#movePins();
-    return isNew || this.#moving;
+    return isNew;
   }
 
   /** Adds an object that follows the skin at its point nearest to `point`, and turns with it. */
   pin(point) {
     this.update();
-    const pin = new Pin().fasten(point, this.face.triangles, this[standing](), this.#shown);
+    const pin = new Pin().fasten(point, this.face.triangles, this[standing](), this[shown]);
     this.add(pin);
     return pin;
   }
 
   /** Brings pins to the pose on show, including new ones that have not followed it yet. */
   #movePins() {
+    if (this[isGone]) return;
     const size = 3 * this.face.vertexCount;
-    const behind = this.children.filter((child) => child instanceof Pin && child.isBehind(size, this.#shown));
+    const behind = this.children.filter((child) => child instanceof Pin && child.isBehind(size, this[shown]));
     if (behind.length === 0) return;
     const positions = this[standing]();
-    for (const pin of behind) pin.follow(positions, this.#shown);
+    for (const pin of behind) pin.follow(positions, this[shown]);
   }
 
   [standing]() {
@@ -233,20 +146,15 @@ export class FaceMesh extends Mesh {
     return this.#positions;
   }
 
-  /** Prepares the face to move. Otherwise that happens at its first move, and takes a few frames. */
-  prepare() { this.face.prepare(); }
-
-  [follow]() {}
-
   raycast(raycaster, hits) {
-    if (!this.#isGone) this[meet](raycaster, hits);
+    if (!this[isGone]) this[meet](raycaster, hits);
   }
 
   [meet](raycaster, hits) { super.raycast(raycaster, hits); }
 
   /** Another face of the same file, in the same pose, that moves independently. */
   clone(recursive) {
-    this.#takeInfluences();
+    this[takeInfluences]();
     this.morphTargetInfluences ??= undefined;  // three.js cannot copy null
     const face = twinOf(this.face);
     const materials = this[materialsOfClone](), lacks = face.parts.length - materials.length;  // if groups were changed
@@ -274,11 +182,10 @@ export class FaceMesh extends Mesh {
   }
 
   dispose() {
-    this.#isGone = true;
+    super.dispose();
     this.#group.delete(this.#self);
     this.geometry.dispose();
-    const shown = new Set([...this.#group].flatMap((other) => other.deref()?.material ?? []));
-    for (const material of [this.material].flat()) if (!shown.has(material)) material?.dispose();
-    this.face.dispose();
+    const inUse = new Set([...this.#group].flatMap((other) => other.deref()?.material ?? []));
+    for (const material of [this.material].flat()) if (!inUse.has(material)) material?.dispose();
   }
 }

@@ -2,7 +2,8 @@
 import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
 import {withOptions} from './sweepface_file.js';
-import {FaceMesh, geometryOf, show, standing} from './sweepface_mesh.js';
+import {FaceMesh, geometryOf, standing} from './sweepface_mesh.js';
+import {show} from './sweepface_moved.js';
 import {ownOptions} from './sweepface_regions.js';
 import {boxOf, faceFrom, nameOf, otherGeometry} from './sweepface_values.js';
 
@@ -14,7 +15,7 @@ function vectors(face) {
 }
 
 /** Makes the sphere what geometry.computeBoundingSphere() would, in a fraction of the time. */
-function bound({array}, sphere) {
+export function bound({array}, sphere) {
   const [low, high] = boxOf(array), {x, y, z} = sphere.center.fromArray(low.map((least, axis) => (least + high[axis]) / 2));
   let most = 0;
   for (let k = 0; k < array.length; k += 3)
@@ -76,7 +77,7 @@ export class SweepfaceLoader extends Loader {
     const tell = onError ?? console.error, name = usual.name || nameOf(url), aborts = this.#aborts;
     const deliver = (mesh) => {
       if (aborts === this.#aborts) return onLoad(mesh);
-      mesh.dispose();
+      (mesh.dispose ? mesh : mesh.face).dispose();  // of a scene
       throw new DOMException('The load was aborted.', 'AbortError');
     };
     const parse = (bytes) => this.parseAsync(bytes, {name}, usual).then(deliver).catch((error) => {

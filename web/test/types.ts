@@ -1,11 +1,13 @@
 // Compiles if the types say what the package offers. Never run.
-import {type Material, MeshBasicMaterial, type Object3D, Scene, Vector3} from 'three';
+import {AnimationMixer, type Material, MeshBasicMaterial, type Object3D, Scene, Vector3} from 'three';
+import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import type {Scene as BabylonScene} from '@babylonjs/core/scene.js';
 import {StandardMaterial} from '@babylonjs/core/Materials/standardMaterial.js';
 import {SweepfaceMesh as BabylonMesh} from 'sweepface/babylon';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region, type Weights} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
+import {SceneFace, type SweepfaceScene, SweepfaceSceneLoader} from 'sweepface/scene';
 import {SweepfaceNodeMesh} from 'sweepface/webgpu';
 import {animationFor, SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
@@ -85,6 +87,21 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   // @ts-expect-error That is no mesh of a face.
   new SweepfaceLoader(undefined, {mesh: Scene});
   return loaded.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length + nodes.textureBytes;
+}
+
+export async function useScene(scene: Scene, bytes: ArrayBuffer): Promise<SceneFace> {
+  const loader = new SweepfaceSceneLoader(undefined, {eyes: true, gltfLoader: new GLTFLoader()}).setPath('models/');
+  const model: SweepfaceScene = await loader.loadAsync('avatar.sweep'), {face, animations} = model;
+  scene.add(model.scene);
+  new AnimationMixer(model.scene).clipAction(animations[0]!).play();
+  face.moveTo({jawOpen: 0.7}, 'spring');
+  console.log(face.update(1 / 60), face.meshes[0]?.morphTargetInfluences, face.face.tolerance, new ClipPlayer(face, readClip('')).match);
+  // @ts-expect-error A scene has the vertices of its source.
+  await loader.parseAsync(bytes, {lod: 2});
+  // @ts-expect-error Loaders make it.
+  new SceneFace();
+  face.dispose();
+  return (await loader.abort().parseAsync(bytes, {combine: true})).face;
 }
 
 /** A mesh of one's own, as loaders make it. */

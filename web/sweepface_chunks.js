@@ -1,0 +1,64 @@
+// The chunks that a .sweep file consists of: docs/file-format-1.md.
+
+const textOf = (bytes) => String.fromCharCode(...bytes);
+
+/** Whether it begins as a .sweep file of any version does. */
+export const isSweep = (bytes) => textOf(bytes.subarray(0, 7)) === 'SWEEPFC';
+
+/** The chunks of a file up to the first that is cut off, as {kind, begin, end, payload, sum}. */
+function* chunksOf(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  for (let begin = 8; isSweep(bytes) && begin + 12 <= bytes.length;) {
+    const end = begin + 12 + view.getUint32(begin + 4, true);
+    if (end > bytes.length) return;
+    const kind = textOf(bytes.subarray(begin, begin + 4)), payload = bytes.subarray(begin + 12, end);
+    yield {kind, begin, end, payload, sum: view.getUint32(begin + 8, true)};
+    begin = end;
+  }
+}
+
+const CRC_TABLE = Uint32Array.from({length: 256}, (_, byte) => {
+  for (let bit = 0; bit < 8; ++bit) byte = byte & 1 ? (byte >>> 1) ^ 0xedb88320 : byte >>> 1;
+  return byte;
+});
+
+/** The CRC-32 of a chunk, which is that of its kind and payload. */
+function crcOf(bytes, {begin, payload}) {
+  let crc = -1;
+  for (const part of [bytes.subarray(begin, begin + 4), payload])
+    for (let k = 0; k < part.length; ++k) crc = CRC_TABLE[(crc ^ part[k]) & 255] ^ (crc >>> 8);
+  return ~crc >>> 0;
+}
+
+/** Chunks that hold things unpacked, which takes a hundred times the bytes of a packed face. */
+const AS_THEY_ARE = ['EXAC', 'loos', 'drif', 'ordr', 'poly', 'texc', 'quad'];
+
+/** Whether a file holds only what the usual module reads. */
+export function isPacked(bytes) {
+  if (!isSweep(bytes) || bytes[7] !== 2) return false;
+  for (const {kind} of chunksOf(bytes))
+    if (AS_THEY_ARE.includes(kind)) return false;
+  return true;
+}
+
+/** The chunk of the scene, if it is whole. */
+function sceneChunk(bytes) {
+  for (const chunk of chunksOf(bytes))
+    if (chunk.kind === 'scen') return crcOf(bytes, chunk) === chunk.sum ? chunk : undefined;
+}
+
+/** A copy of a file without its scene, which playing does not need and which may be most of it. A damaged one stays. */
+export function withoutScene(bytes) {
+  const chunk = sceneChunk(bytes);
+  if (!chunk) return bytes.slice();
+  const rest = new Uint8Array(bytes.length - (chunk.end - chunk.begin));
+  rest.set(bytes.subarray(0, chunk.begin));
+  rest.set(bytes.subarray(chunk.end), chunk.begin);
+  return rest;
+}
+
+/** The text of a file's scene, or undefined if it has none. */
+export function sceneText(bytes) {
+  const payload = sceneChunk(bytes)?.payload;
+  return payload?.subarray(payload.findIndex((byte) => byte < 128) + 1);  // after its length, a LEB128
+}

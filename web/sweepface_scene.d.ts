@@ -1,0 +1,42 @@
+import type {Loader, LoadingManager, Mesh} from 'three';
+import type {GLTF, GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+import type {Bytes, LoadOptions, Moved, Sweepface} from './sweepface.js';
+
+export interface SceneFace extends Moved {}
+
+/** The face of a scene. Weights are set at any time; `update` brings them to its meshes. They are also in the meshes'
+ * `morphTargetInfluences`, to read and to set, so that whatever moves morph targets moves the face. */
+export class SceneFace {
+  /** Loaders make it. */
+  private constructor();
+  /** For reading: what is set there does not show. */
+  readonly face: Sweepface;
+  /** The meshes that show the face, skinned ones included. */
+  readonly meshes: Mesh[];
+  /** Call it once a frame with the seconds since the last, as for `advance`. It costs nothing while nothing moves, and
+   * does nothing once the face is disposed of. Returns whether there is something new to draw, or will be in the next
+   * frame. */
+  update(seconds?: number): boolean;
+  /** Frees the face, and the geometries, materials and textures of the scene. */
+  dispose(): void;
+}
+
+/** What GLTFLoader makes of a glTF file, with the face in it. */
+export interface SweepfaceScene extends GLTF {
+  face: SceneFace;
+}
+
+/** The options of a face, except those that ask for other vertices than the source's. */
+export interface SceneOptions extends Omit<LoadOptions, 'lod' | 'edgeLength' | 'error' | 'vertices'> {
+  /** A loader of your own, with the decoders and plugins that the scene needs. */
+  gltfLoader?: GLTFLoader | undefined;
+}
+
+/** Loads .sweep files with the scenes that their faces came with. */
+export class SweepfaceSceneLoader extends Loader<SweepfaceScene> {
+  constructor(manager?: LoadingManager, options?: SceneOptions);
+  options: SceneOptions;
+  /** Aborts the downloads under way. */
+  abort(): this;
+  parseAsync(bytes: Bytes, options?: SceneOptions): Promise<SweepfaceScene>;
+}
