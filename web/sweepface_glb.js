@@ -74,6 +74,9 @@ export function formatGlb({json, binary}) {
   return glb.buffer;
 }
 
+/** What to throw about a scene that cannot be read. */
+export const damaged = (name, cause) => new Error(`${name}: its scene is damaged; convert the source again.`, {cause});
+
 /** The scene in a .sweep file as {json, binary}, or null if the file has none. */
 export async function sceneOf(bytes, name) {
   const text = sceneText(bytes);
@@ -81,6 +84,6 @@ export async function sceneOf(bytes, name) {
   try {
     return parse(await glbFrom(text));
   } catch (cause) {
-    throw new Error(`${name}: its scene is damaged; convert the source again.`, {cause});
+    throw damaged(name, cause);
   }
 }

@@ -1,4 +1,4 @@
-import type {Loader, LoadingManager, Mesh} from 'three';
+import type {AnimationClip, Group, Loader, LoadingManager, Mesh} from 'three';
 import type {GLTF, GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import type {Bytes, LoadOptions, Moved, Sweepface} from './sweepface.js';
 
@@ -17,7 +17,8 @@ export class SceneFace {
    * does nothing once the face is disposed of. Returns whether there is something new to draw, or will be in the next
    * frame. */
   update(seconds?: number): boolean;
-  /** Frees the face, and the geometries, materials and textures of the scene. */
+  /** Frees the face and the geometries of its meshes, and with the last of the clones the geometries, materials and
+   * textures of the scene. */
   dispose(): void;
 }
 
@@ -40,3 +41,9 @@ export class SweepfaceSceneLoader extends Loader<SweepfaceScene> {
   abort(): this;
   parseAsync(bytes: Bytes, options?: SceneOptions): Promise<SweepfaceScene>;
 }
+
+/** Another model like one that was loaded (or cloned), in the same pose, that moves by itself. It shares materials,
+ * textures and what does not move. */
+export function cloneScene(model: {scene: Group; face: SceneFace; animations: AnimationClip[]}): {
+  scene: Group; face: SceneFace; animations: AnimationClip[];
+};

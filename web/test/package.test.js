@@ -60,7 +60,7 @@ test('the package holds what is needed, and an application can use it', () => {
                     'sweepface_file.js', 'sweepface_full.wasm', 'sweepface_glb.js', 'sweepface_gpu.d.ts',
                     'sweepface_gpu.js', 'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_moved.js',
                     'sweepface_names.js', 'sweepface_pin.js', 'sweepface_regions.js', 'sweepface_scene.d.ts',
-                    'sweepface_scene.js', 'sweepface_scene_parts.js', 'sweepface_text.js', 'sweepface_three.d.ts',
+                    'sweepface_scene.js', 'sweepface_scene_face.js', 'sweepface_scene_fill.js', 'sweepface_scene_parts.js', 'sweepface_text.js', 'sweepface_three.d.ts',
                     'sweepface_three.js', 'sweepface_timeline.js', 'sweepface_twin.js', 'sweepface_values.js',
                     'sweepface_wasm.js', 'sweepface_webgpu.d.ts', 'sweepface_webgpu.js']);
   mkdirSync(join(scratch, 'node_modules'));

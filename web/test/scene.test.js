@@ -244,10 +244,11 @@ function withScene(text) {
 
 test('a damaged scene says so, and its face is freed', {...options, timeout: 60_000}, async () => {
   const numbers = (...list) => Buffer.from(Uint32Array.from(list).buffer), planes = (...parts) => [1, ...deflateSync(Buffer.concat(parts))];
+  const glbOf = (json) => [...Buffer.from('glTF'), ...numbers(2, 20 + json.length, json.length, 0x4e4f534a), ...Buffer.from(json)];
   const told = {message: 'model.sweep: its scene is damaged; convert the source again.'};
   for (const text of [[], [120, 156, 1], [...deflateSync(Buffer.from('no GLB'))], [...deflateSync(Buffer.alloc(1e7))], planes(numbers(7)),
                       planes(numbers(1, 0, 0xffffffff, 0)), planes(numbers(1, 9, 1, 1), Buffer.from([0, 1, 2])), [...Buffer.from('glTF and no more')],
-                      [...Buffer.from('glTF'), ...numbers(2, 24, 4, 0x4e4f534a), ...Buffer.from('{"a"')]])
+                      glbOf('{"a"'), glbOf('{"meshes": [1]}')])
     await assert.rejects(load(withScene(text)), told, String(text));
   const flipped = Buffer.from(bytes);
   flipped[flipped.indexOf('scen') + 40] ^= 1;
@@ -269,16 +270,59 @@ test('a scene of another face is refused', options, async () => {
   await assert.rejects(load(withScene([...plain])), {message: /fit; convert the source again\.$/});
 });
 
-test('disposing of a face frees what the scene holds', options, async () => {
-  const {face, scene} = await load(), gone = [];
+/** The materials and geometries of a scene that are disposed of from now on. */
+function watch({scene}) {
+  const gone = new Set();
   scene.traverse(({geometry, material}) => {
-    for (const each of [geometry, material])
-      each?.addEventListener('dispose', () => gone.push(each));
+    for (const each of [geometry, material]) each?.addEventListener('dispose', () => gone.add(each));
   });
+  return gone;
+}
+
+test('disposing of a face frees what the scene holds', options, async () => {
+  const model = await load(), {face} = model, gone = watch(model);
   face.dispose();
-  assert.equal(new Set(gone).size, 4 + 3);  // geometries, of which two nodes share one, and materials
+  assert.equal(gone.size, 4 + 3);  // geometries, of which two nodes share one, and materials
   assert.equal(face.update(), false);
   assert.throws(() => face.setWeights({jawOpen: 1}), /disposed of/);
+});
+
+test('a clone moves by itself, and shares what does not move', options, async () => {
+  const {cloneScene} = await import('../sweepface_scene.js');
+  const model = await load(), {face, scene} = model;
+  face.meshes[0].morphTargetInfluences[1] = 0.5;  // which counts, though it has not been shown
+  const twin = cloneScene(model), [lips] = face.meshes, [others] = twin.face.meshes;
+  const still = lips.geometry.attributes.position.array.slice();
+  assert.deepEqual(twin.face.weights, {jawOpen: 0.25, smile: 0.5, look: 0});
+  assert.deepEqual(others.morphTargetInfluences, [0.25, 0.5]);
+  twin.face.setWeights({jawOpen: 1});
+  twin.face.update();
+  assert.deepEqual(lips.geometry.attributes.position.array, still);
+  face.setWeights({jawOpen: 1});
+  face.update();
+  for (const [k, mesh] of face.meshes.entries())
+    assert.deepEqual(placesOf(mesh), placesOf(twin.face.meshes[k]));
+  assert.ok(others.material === lips.material && twin.scene.getObjectByName('hat').geometry === scene.getObjectByName('hat').geometry);
+  assert.notEqual(others.skeleton.bones[0], lips.skeleton.bones[0]);
+  const mixer = new three.AnimationMixer(twin.scene);
+  mixer.clipAction(twin.animations[0]).play();
+  mixer.update(0.5);
+  twin.face.update();
+  assert.deepEqual([twin.face.weights.jawOpen, face.weights.jawOpen], [0.5, 1]);
+  const gone = [watch(model), watch(twin)];
+  face.dispose();
+  assert.deepEqual(gone.map(({size}) => size), [3, 0]);  // the head's geometries and the eye's
+  assert.equal(cloneScene(twin).face.weights.jawOpen, 0.5);
+  assert.throws(() => cloneScene({face: three}), {message: /^cloneScene takes what a SweepfaceSceneLoader loaded/});
+});
+
+test('what is shared goes with the last clone', options, async () => {
+  const {cloneScene} = await import('../sweepface_scene.js');
+  const model = await load(), twin = cloneScene(model), gone = watch(twin);
+  model.face.dispose();
+  assert.equal(gone.size, 0);
+  twin.face.dispose();
+  assert.equal(gone.size, 4 + 3);
 });
 
 test('a scene is loaded by its address, and pictures show its textures', {skip: options.skip || skip, timeout: 120_000}, async () => {

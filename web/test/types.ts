@@ -7,7 +7,7 @@ import {SweepfaceMesh as BabylonMesh} from 'sweepface/babylon';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region, type Weights} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
-import {SceneFace, type SweepfaceScene, SweepfaceSceneLoader} from 'sweepface/scene';
+import {cloneScene, SceneFace, type SweepfaceScene, SweepfaceSceneLoader} from 'sweepface/scene';
 import {SweepfaceNodeMesh} from 'sweepface/webgpu';
 import {animationFor, SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
@@ -96,6 +96,9 @@ export async function useScene(scene: Scene, bytes: ArrayBuffer): Promise<SceneF
   new AnimationMixer(model.scene).clipAction(animations[0]!).play();
   face.moveTo({jawOpen: 0.7}, 'spring');
   console.log(face.update(1 / 60), face.meshes[0]?.morphTargetInfluences, face.face.tolerance, new ClipPlayer(face, readClip('')).match);
+  const twin = cloneScene(model), another: SceneFace = cloneScene(twin).face;
+  scene.add(twin.scene);
+  another.setWeights(twin.face.weights);
   // @ts-expect-error A scene has the vertices of its source.
   await loader.parseAsync(bytes, {lod: 2});
   // @ts-expect-error Loaders make it.
