@@ -1,14 +1,13 @@
 // The page: shows a .sweep face, with sliders to try its expressions.
-import {Sweepface} from 'sweepface';
 import {at, complain, dismiss, hush, say} from './page_message.js';
 import {average, buildSliders, filterSliders, followWeights, tellFigures} from './page_panel.js';
 import {
-  controls, isLost, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
+  controls, hasScene, isLost, linesOver, load, placeCamera, removeLines, render, resize, scene, stage, view
 } from './page_stage.js';
 
 const LOST = 'The graphics card is not available to this page; if it does not come back, reload the page.';
 
-let mesh, lines;           // the face on show and, if wanted, its edges
+let model, mesh, lines;    // what is on show, what in it moves the face and, if wanted, the face's edges
 let file, latest;          // the file on show and the file requested last: its bytes or a promise of them, its name
                            // and, until it is shown, the request `before` it
 let loading = 0;           // milliseconds from the bytes to the first frame
@@ -31,19 +30,22 @@ async function show(source, name, keepView = false) {
     if (!buffer) return mine === asked && invite();
     if (mesh) await painted();
     const began = performance.now();
-    const face = await Sweepface.load(buffer, {name, lod: Number(at('lod').value)});
-    if (mine < shown) return face.dispose();
-    const next = standing(face, mesh && keepView ? mesh.face.weights : {});
+    const mayHaveScene = await hasScene(buffer, name), inScene = mayHaveScene && at('scene').checked;
+    const next = await load(buffer, {name, inScene, lod: inScene ? 0 : Number(at('lod').value)});
+    if (mine < shown) return next.mover.dispose();
+    stand(next.mover, mesh && keepView ? mesh.face.weights : {});
     remove();
     shown = mine;
     file = Object.assign(own, {source: buffer, before: undefined});
-    mesh = next;
-    scene.add(mesh);
+    model = next;
+    mesh = model.mover;
+    scene.add(model.object);
+    offer(mayHaveScene);
     if (keepView) {
       mesh.moveTo(...aim);
     } else {
       aim = [{}];
-      placeCamera(mesh);
+      placeCamera(model.meshes);
     }
     document.title = `${name} · Sweepface`;
     buildSliders(mesh, setWeight);
@@ -51,7 +53,7 @@ async function show(source, name, keepView = false) {
     draw(0);
     loading = performance.now() - began;
     tellFigures(figures());
-    setTimeout(() => prepare(face), 50);  // once the first frame is on the screen
+    setTimeout(() => prepare(next.mover), 50);  // once the first frame is on the screen
     wake();
   } catch (error) {
     if (mine === asked) complain(error);
@@ -68,16 +70,21 @@ async function show(source, name, keepView = false) {
 /** Resolves once the page's message is on the screen. */
 const painted = () => new Promise((done) => { setTimeout(done, 50); });
 
-/** A mesh of a face with these weights; disposes of the face if that fails. */
-function standing(face, weights) {
+/** Gives a new face these weights; disposes of it if that fails. */
+function stand(mover, weights) {
   try {
-    const made = meshOf(face);
-    made.setWeights(weights);
-    return made;
+    mover.setWeights(weights);
   } catch (error) {
-    face.dispose();
+    mover.dispose();
     throw error;
   }
+}
+
+/** Offers what can be chosen of the face on show: a scene has neither levels of detail nor lines. */
+function offer(mayHaveScene) {
+  const inScene = model.object !== mesh;
+  at('choice').hidden = !mayHaveScene;
+  at('lod').disabled = at('lines').disabled = inScene;
 }
 
 /** Runs an action, and reports its error if it fails. */
@@ -90,8 +97,8 @@ function attempt(action) {
 }
 
 /** Prepares a face to move, if it is still on show. */
-function prepare(face) {
-  attempt(() => mesh?.face === face && face.prepare());
+function prepare(mover) {
+  attempt(() => mesh === mover && mover.prepare());
 }
 
 function invite() {
@@ -100,14 +107,14 @@ function invite() {
 
 function remove() {
   if (!mesh) return;
-  scene.remove(mesh);
+  model.object.removeFromParent();
   mesh.dispose();
-  mesh = undefined;
+  model = mesh = undefined;
 }
 
 function drawLines() {
   if (lines) removeLines(lines);
-  lines = at('lines').checked && mesh ? linesOver(mesh) : undefined;
+  lines = at('lines').checked && !at('lines').disabled && mesh ? linesOver(mesh) : undefined;
 }
 
 function setWeight(name, weight) {
@@ -137,9 +144,10 @@ function surprise() {
 }
 
 function draw(seconds) {
-  const began = performance.now(), version = mesh?.geometry.attributes.position.version;
+  const began = performance.now(), versionOf = () => model?.meshes[0].geometry.attributes.position.version;
+  const version = versionOf();
   mesh?.update(seconds);
-  if (mesh && mesh.geometry.attributes.position.version !== version) {
+  if (versionOf() !== version) {
     average('evaluation', performance.now() - began);
     followWeights(mesh);
     wake();
@@ -220,7 +228,8 @@ at('surprise').addEventListener('click', () => attempt(() => mesh && surprise())
 at('rest').addEventListener('click', () => {
   attempt(() => mesh && moveTo(still()));
 });
-at('lod').addEventListener('change', () => latest && show(latest.source, latest.name, latest.source === file?.source));
+for (const id of ['lod', 'scene'])
+  at(id).addEventListener('change', () => latest && show(latest.source, latest.name, latest.source === file?.source));
 at('lines').addEventListener('change', () => {
   drawLines();
   wake();

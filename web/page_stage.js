@@ -5,7 +5,8 @@ import {
   WebGLRenderer
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
-import {SweepfaceMesh} from 'sweepface/three';
+import {sceneJson, SweepfaceSceneLoader} from 'sweepface/scene';
+import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 import {at, complain} from './page_message.js';
 
 export const stage = at('stage'), view = at('view');
@@ -45,15 +46,34 @@ function colourOf(name) {
   return new Color(known.find(([pattern]) => pattern.test(name))?.[1] ?? 0xd9a688);
 }
 
-/** A mesh of a face in the colours of its materials, with its inside. */
-export function meshOf(face) {
-  const mesh = new SweepfaceMesh(face, face.parts.map(({material}) =>
-    new MeshStandardMaterial({name: material, color: colourOf(material), roughness: 0.62})));
-  mesh.add(new Mesh(mesh.geometry, inside));
-  return mesh;
+/** A face in the colours of its materials, with its inside. */
+class FaceInColours extends SweepfaceMesh {
+  constructor(face) {
+    super(face, face.parts.map(({material}) => {
+      return new MeshStandardMaterial({name: material, color: colourOf(material), roughness: 0.62});
+    }));
+    this.add(new Mesh(this.geometry, inside));
+  }
 }
 
-let unplaced;         // a face that was loaded while the view had no area
+/** Whether a face came with more to see than a mesh in plain colours. */
+export async function hasScene(bytes, name) {
+  const {textures = [], skins = [], meshes = []} = await sceneJson(bytes, name) ?? {};
+  const morphs = meshes.flatMap(({primitives}) => primitives).map(({targets = []}) => targets.length > 0);
+  return textures.length + skins.length > 0 || new Set(morphs).size > 1;
+}
+
+/** A face to show, as `object` and what moves it: by itself in plain colours, or with all that it came with. */
+export async function load(bytes, {inScene, ...options}) {
+  if (!inScene) {
+    const mover = await new SweepfaceLoader().parseAsync(bytes, {...options, mesh: FaceInColours});
+    return {mover, object: mover, meshes: [mover]};
+  }
+  const {scene: object, face: mover} = await new SweepfaceSceneLoader().parseAsync(bytes, options);
+  return {mover, object, meshes: mover.meshes};
+}
+
+let unplaced;         // meshes that were loaded while the view had no area
 let size, placedFor;  // size of the face on show, and height in its units of the picture the camera was placed for
 
 const radians = (degrees) => degrees * Math.PI / 180;
@@ -61,11 +81,12 @@ const radians = (degrees) => degrees * Math.PI / 180;
 /** The height that a picture of this aspect ratio must have to show the whole face. */
 const heightFor = (aspect) => Math.max(size.y, size.x / aspect);
 
-/** Places the camera in front of the face, far enough away to see all of it. */
-export function placeCamera(mesh) {
-  unplaced = camera.aspect > 0 ? undefined : mesh;
+/** Places the camera in front of the meshes of a face, far enough away to see all of it. */
+export function placeCamera(meshes) {
+  unplaced = camera.aspect > 0 ? undefined : meshes;
   if (unplaced) return;
-  const box = new Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
+  scene.updateMatrixWorld();
+  const box = meshes.reduce((box, mesh) => box.expandByObject(mesh, true), new Box3());
   const middle = box.getCenter(new Vector3());
   size = box.getSize(new Vector3());
   placedFor = heightFor(camera.aspect);

@@ -81,6 +81,8 @@ export const damaged = (name, cause) => new Error(`${name}: its scene is damaged
 export async function sceneOf(bytes, name) {
   const text = sceneText(bytes);
   if (!text) return null;
+  if (!globalThis.DecompressionStream)
+    throw new Error(`${name}: its scene cannot be read here, where there is no DecompressionStream; use a newer browser.`);
   try {
     return parse(await glbFrom(text));
   } catch (cause) {

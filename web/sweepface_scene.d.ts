@@ -47,3 +47,7 @@ export class SweepfaceSceneLoader extends Loader<SweepfaceScene> {
 export function cloneScene(model: {scene: Group; face: SceneFace; animations: AnimationClip[]}): {
   scene: Group; face: SceneFace; animations: AnimationClip[];
 };
+
+/** The JSON of the glTF file that a face came with, without what the face itself holds; null if there is no scene in the
+ * .sweep file, or a damaged one. */
+export function sceneJson(bytes: Bytes, name?: string): Promise<GLTF['parser']['json'] | null>;

@@ -21,6 +21,13 @@ function checkDetail({lod, edgeLength, error, vertices}) {
     throw new TypeError('The meshes of a scene have the vertices of their source; leave out lod, edgeLength, error and vertices.');
 }
 
+/** The JSON of the glTF file that a face came with, or null if there is no scene in the file. */
+export async function sceneJson(given, name = 'The face') {
+  const bytes = bytesOf(given);
+  if (!bytes) throw new TypeError('sceneJson needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
+  return (await sceneOf(bytes, name))?.json ?? null;
+}
+
 /** The scene in a file: its JSON without shapes, its binary part, and which parts of it are the face. */
 async function read(bytes, name) {
   const scene = await sceneOf(bytes, name);

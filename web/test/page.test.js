@@ -5,6 +5,7 @@ import test from 'node:test';
 import {Sweepface} from '../sweepface.js';
 import {skip, withPage} from './browser.js';
 import {packed, positionsOf, sample} from './native.js';
+import {converted, model} from './scene_file.js';
 
 const bytes = readFileSync(sample);
 const visit = {files: {'sample.sweep': bytes}, viewport: {width: 1000, height: 700}};
@@ -21,6 +22,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   const positions = () => page.evaluate(() => [...globalThis.sweepface.mesh.geometry.attributes.position.array]);
   const weight = (name) => page.evaluate((name) => globalThis.sweepface.mesh.face.weights[name], name);
+  const open = (name, buffer) => page.locator('#file').setInputFiles({name, mimeType: 'application/octet-stream', buffer});
   const said = () => page.locator('#message').textContent();
   const picture = async () => (await page.locator('#view').screenshot()).toString('base64');
 
@@ -242,8 +244,6 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
   });
 
   await t.test('opens a file, and says why another is none', async () => {
-    const mimeType = 'application/octet-stream';
-    const open = (name, buffer) => page.locator('#file').setInputFiles({name, mimeType, buffer});
     await open('holiday.sweep', Buffer.from('GIF89a'));
     await page.waitForSelector('#message.error');
     assert.equal(await said(), 'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
@@ -271,6 +271,37 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     assert.equal(await page.locator('#file').inputValue(), '');  // so that the same one can be chosen again
   });
 
+  await t.test('shows a face with all that it came with, or alone', async () => {
+    const shown = (isScene) => until((isScene) => !globalThis.sweepface.mesh.isMesh === isScene, isScene);
+    const choices = () => page.evaluate(() => ['choice', 'lod', 'lines'].map((id) => {
+      const {hidden, disabled} = document.getElementById(id);
+      return hidden || disabled || false;
+    }));
+    assert.deepEqual(await choices(), [true, false, false]);
+    await page.locator('#lines').check();
+    await open('model.sweep', readFileSync(converted(model())));
+    await shown(true);
+    await page.waitForTimeout(800);
+    assert.deepEqual(await choices(), [false, true, true]);
+    assert.equal(await page.locator('#lod').inputValue(), '0');  // the level of the face before does not count
+    assert.equal(await weight('jawOpen'), 0.25);
+    const before = await picture();
+    await slide('jawOpen', 1);
+    assert.ok(await changed(before, await picture()) > 0.01);
+    await page.locator('#scene').uncheck();
+    await shown(false);
+    assert.deepEqual(await choices(), [false, false, false]);
+    assert.equal(await weight('jawOpen'), 1);
+    await page.locator('#lines').uncheck();
+    await page.locator('#scene').check();
+    await shown(true);
+    await open('again.sweep', bytes);
+    await shown(false);
+    assert.deepEqual(await choices(), [true, false, false]);
+    await page.locator('#lod').selectOption('2');
+    await until(() => globalThis.sweepface.mesh.face.lod === 2);
+  });
+
   await t.test('names its sliders, and what else there is to use', async () => {
     assert.ok(await page.evaluate(() => [...document.querySelectorAll('.slider')].every((row) => {
       const [input] = row.getElementsByTagName('input');
@@ -289,7 +320,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
   await t.test('keeps the face where another cannot be shown', async () => {
     const broken = Buffer.from(bytes);
     broken.fill(0, bytes.length / 2);
-    await page.locator('#file').setInputFiles({name: 'broken.sweep', mimeType: 'application/octet-stream', buffer: broken});
+    await open('broken.sweep', broken);
     await page.waitForSelector('#message.error');
     // The level requested for a file that fails to load does not count for the one on show.
     assert.deepEqual(await page.evaluate(async () => {
@@ -316,7 +347,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const begun = page.waitForRequest('**/sample.sweep'), late = page.waitForResponse('**/sample.sweep');
     await page.reload({waitUntil: 'commit'});
     await begun;
-    await page.locator('#file').setInputFiles({name: 'mine.sweep', mimeType: 'application/octet-stream', buffer: bytes});
+    await open('mine.sweep', bytes);
     await until(() => document.title.startsWith('mine.sweep'));
     await late;
     await page.waitForTimeout(800);
@@ -362,7 +393,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const begun = page.waitForRequest('**/sample.sweep');
     await page.reload({waitUntil: 'commit'});
     await begun;
-    await page.locator('#file').setInputFiles({name: 'bad.sweep', mimeType: 'text/plain', buffer: Buffer.from('GIF89a')});
+    await open('bad.sweep', Buffer.from('GIF89a'));
     await page.waitForSelector('#message.error');
     await until(() => document.title.startsWith('sample.sweep'));
     assert.match(await said(), /^bad\.sweep /);  // the error outlasts the loading

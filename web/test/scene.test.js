@@ -255,6 +255,24 @@ test('a damaged scene says so, and its face is freed', {...options, timeout: 60_
   await assert.rejects(load(flipped), {message: /the checksum of chunk 'scen' does not match/});
 });
 
+test('the scene can be looked at beforehand', options, async () => {
+  const {sceneJson} = await import('../sweepface_scene.js');
+  assert.deepEqual((await sceneJson(bytes)).materials.map(({name}) => name), ['skin', 'lips', 'felt']);
+  assert.equal(await sceneJson(readFileSync(converted(model(), '--bare'))), null);
+  assert.equal(await sceneJson(new Uint8Array(3)), null);
+  await assert.rejects(sceneJson('model.sweep'), {message: /^sceneJson needs the bytes/});
+});
+
+test('a browser that cannot decompress says so', options, async () => {
+  const {DecompressionStream} = globalThis;
+  delete globalThis.DecompressionStream;
+  try {
+    await assert.rejects(load(), {message: /^model\.sweep: its scene cannot be read here, .*; use a newer browser\.$/});
+  } finally {
+    globalThis.DecompressionStream = DecompressionStream;
+  }
+});
+
 test('a scene of another face is refused', options, async () => {
   const other = readFileSync(converted((() => {
     const made = model();
