@@ -12,6 +12,19 @@ function plain(name) {
 }
 
 /**
+ * How long the beginning is that all targets have in common, such as "Head_blendShape." and what else modelling programs put
+ * in front: up to a separator, and never a whole name.
+ */
+function commonPrefix(targets) {
+  if (targets.length < 2) return 0;
+  const [first] = targets;
+  let length = Math.max(0, Math.min(...targets.map((name) => name.length - 1)));
+  for (const name of targets) while (!name.startsWith(first.slice(0, length))) --length;
+  while (length > 0 && !/[_\-. :|]/.test(first[length - 1])) --length;
+  return length;
+}
+
+/**
  * Which target each name of a clip drives: `targets` [names] of indices, `unmatched` names of the clip that drive
  * nothing, `undriven` targets that nothing drives.
  */
@@ -23,6 +36,8 @@ export function matchNames(names, targets) {
     if (!byName.has(target)) byName.set(target, k);
     if (!byPlain.has(plain(target))) byPlain.set(plain(target), k);
   });
+  const prefix = commonPrefix(targets), shorter = (target) => plain(target.slice(prefix));
+  if (prefix > 0) targets.forEach((target, k) => byPlain.has(shorter(target)) || byPlain.set(shorter(target), k));
   const own = names.map((name) => byName.get(name) ?? byPlain.get(plain(name)));
   // A name without a side drives both, unless they have names of their own. A jaw that goes left does not go right.
   const sides = (name) => (/^(jaw|mouth)$/.test(plain(name)) ? [] : ['_l', '_r'])

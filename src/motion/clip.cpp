@@ -33,6 +33,21 @@ std::string plain(std::string_view name) {
   return text;
 }
 
+/// How long the beginning is that all targets have in common, such as "Head_blendShape." and what
+/// else modelling programs put in front: up to a separator, and never a whole name.
+std::size_t commonPrefix(std::span<const std::string> targets) {
+  if (targets.size() < 2) return 0;
+  const std::string_view first = targets.front();
+  std::size_t length = first.size();
+  for (const std::string_view name : targets) {
+    const auto [end, unused] = std::ranges::mismatch(first.substr(0, length), name);
+    length = std::min<std::size_t>(end - first.begin(), name.empty() ? 0 : name.size() - 1);
+  }
+  const auto isEnd = [](char c) { return isGap(c) || c == ':' || c == '|'; };
+  while (length > 0 && !isEnd(first[length - 1])) --length;
+  return length;
+}
+
 }  // namespace
 
 Clip::Moment Clip::momentAt(double seconds) const noexcept {
@@ -70,6 +85,9 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
     byName.emplace(targets[t], static_cast<Index>(t));
     byPlain.emplace(plain(targets[t]), static_cast<Index>(t));
   }
+  if (const std::size_t prefix = commonPrefix(targets); prefix > 0)
+    for (std::size_t t = 0; t < targets.size(); ++t)
+      byPlain.emplace(plain(std::string_view(targets[t]).substr(prefix)), static_cast<Index>(t));
   const auto ownOf = [&](const std::string& name) -> Index {
     if (const auto exact = byName.find(name); exact != byName.end()) return exact->second;
     const auto same = byPlain.find(plain(name));

@@ -51,6 +51,19 @@ TEST(ClipMatch, AFinalLetterIsNotASide) {
             (std::vector<std::vector<Index>>{{}, {}}));
 }
 
+TEST(ClipMatch, WhatAllTargetsBeginWithMayBeLeftOut) {
+  using Targets = std::vector<std::vector<Index>>;
+  EXPECT_EQ(matched({"jawOpen", "EyeBlinkLeft", "eyeBlink", "mouth", "Head", "head jaw open"},
+                    {"Head.jawOpen", "Head.eye_blink_L", "Head.eye_blink_R", "Head.mouthLeft"}),
+            (Targets{{0}, {1}, {2}, {}, {}, {0}}));
+  EXPECT_EQ(matched({"open", "eyeOpen"}, {"eye_open", "eye_shut"}), (Targets{{0}, {0}}));
+  EXPECT_EQ(matched({"open"}, {"eyeOpen", "eyeShut"}), (Targets{{}})) << "no separator";
+  EXPECT_EQ(matched({"open", "b"}, {"a:open", "open", "b"}), (Targets{{1}, {2}})) << "not in all";
+  EXPECT_EQ(matched({"b:up"}, {"a:", "a:b:up", "a:b:"}), (Targets{{}})) << "not a whole name";
+  EXPECT_EQ(matched({"up"}, {"a:up"}), (Targets{{}})) << "one name has nothing in common";
+  EXPECT_EQ(matched({"a"}, {"", "x:a", "x:b"}), (Targets{{}}));
+}
+
 TEST(ClipMatch, SaysWhatDrivesNothingAndWhatNothingDrives) {
   const ClipMatch match =
       matchClip({{"jawOpen", "headYaw"}, {}, {}}, std::vector<std::string>{"jawOpen", "smile"});

@@ -306,6 +306,15 @@ test('names are matched and reported', async () => {
   assert.deepEqual(matchNames(['jaw', 'mouth'], ['jawLeft', 'jawRight', 'mouthLeft', 'mouthRight']).targets, [[], []]);
   assert.deepEqual(matchNames(['jawOpen', 'jaw_open'], ['JawOpen', 'jawOpen']).targets, [[1], [0]]);
   assert.deepEqual(matchNames(['_'], ['left', 'Right', '_L', '_R']).targets, [[]]);  // a side alone is a name
+  const prefixed = ['Head.jawOpen', 'Head.eye_blink_L', 'Head.eye_blink_R', 'Head.mouthLeft'];
+  assert.deepEqual(matchNames(['jawOpen', 'EyeBlinkLeft', 'eyeBlink', 'mouth', 'Head', 'head jaw open'], prefixed).targets,
+                   [[0], [1], [2], [], [], [0]]);
+  assert.deepEqual(matchNames(['open', 'eyeOpen'], ['eye_open', 'eye_shut']).targets, [[0], [0]]);
+  assert.deepEqual(matchNames(['open'], ['eyeOpen', 'eyeShut']).targets, [[]]);  // no separator
+  assert.deepEqual(matchNames(['open', 'b'], ['a:open', 'open', 'b']).targets, [[1], [2]]);  // not all have it
+  assert.deepEqual(matchNames(['b:up'], ['a:', 'a:b:up', 'a:b:']).targets, [[]]);  // not a whole name
+  assert.deepEqual(matchNames(['up'], ['a:up']).targets, [[]]);  // one name has nothing in common with others
+  assert.deepEqual(matchNames(['a'], ['', 'x:a', 'x:b']).targets, [[]]);
   assert.deepEqual(matchNames(['ÄUGE'], ['äuge']).unmatched, ['ÄUGE']);  // case is ignored for A to Z only
 });
 
