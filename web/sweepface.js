@@ -199,9 +199,7 @@ export class Sweepface {
 
   /** Prepares the face to move. Otherwise that happens at its first move, and takes a few frames. */
   prepare() {
-    const {runtime} = this.#open();
-    this.#shared.loadTargets();
-    runtime.check(runtime.wasm.sweepface_mesh_prepare(this.#shared.mesh, 1));
+    this.#open().prepare();
   }
 
   /** Starts moving weights from where they stand to goals, everywhere or in a region; `advance` moves them. */

@@ -8,10 +8,11 @@ export interface SweepfaceMesh extends Moved {}
 /** A face in a scene of Babylon.js. Weights are set at any time; whenever the scene is rendered, the face moves on by
  * the time of its animations and the mesh follows. */
 export class SweepfaceMesh extends Mesh {
-  /** Loads a face from a URL or from bytes, and makes its mesh in a scene: the last one that was made unless given. */
+  /** Loads a face from a URL or from bytes, and makes its mesh in a scene: the last one that was made unless given.
+   * `load` may be loadInWorker of sweepface/worker. */
   static load<M extends SweepfaceMesh>(
     this: new (name: string, scene: any, face: Sweepface) => M, source: string | URL | Bytes, scene?: Scene | null,
-    options?: LoadOptions): Promise<M>;
+    options?: LoadOptions & {load?: typeof Sweepface.load | undefined}): Promise<M>;
   /** Without a scene it belongs to the last one that was made. Unless a material is given, each part of the face gets a
    * plain one, named as in the source, in a MultiMaterial if there are several. Every mesh needs a face of its own, which
    * clone() makes at little cost: it frees the face with itself. */

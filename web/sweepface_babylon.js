@@ -88,14 +88,14 @@ export class SweepfaceMesh extends Mesh {
   #material;  // that it was made with
   #isMirrored;
 
-  /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load. */
+  /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load, and `load`, loadInWorker. */
   static async load(source, scene, options = {}) {
     if (scene) checkScene(scene);
-    const usual = ownOptions(options), isUrl = typeof source === 'string' || source instanceof URL;
+    const {load = Sweepface.load, ...usual} = ownOptions(options), isUrl = typeof source === 'string' || source instanceof URL;
     if (isUrl) usual.name ??= nameOf(source);
     scene?.addPendingData(usual);  // its whenReadyAsync() waits
     try {
-      const face = await Sweepface.load(isUrl ? await download(source) : source, usual);
+      const face = await load(isUrl ? await download(source) : source, usual);
       return SweepfaceMesh.#from.call(this, face, isUrl ? nameIn(source) : 'face', scene);
     } finally {
       scene?.removePendingData(usual);

@@ -43,8 +43,9 @@ function read(options) {
 
 /** What all faces of one file at one level of detail share. */
 export class Shared {
-  constructor(instance, bytes, {name, follow, eyes, divide, lod, budget}) {
+  constructor(module, instance, bytes, {name, follow, eyes, divide, lod, budget}) {
     const runtime = this.runtime = new Runtime(instance), {wasm} = runtime;
+    this.module = module;
     this.name = name;
     this.rig = runtime.loadRig(bytes, name);
     if (follow || eyes) this.loadTargets();
@@ -61,6 +62,24 @@ export class Shared {
     this.weightCount = this.names.length * this.regionCount;
     this.vertexCount = wasm.sweepface_mesh_vertex_count(this.mesh);
     this.lod = lod;
+  }
+
+  /** Of what another thread makes the same: a copy of the memory, and what is known about it. */
+  give() {
+    const {runtime, ...known} = this;
+    return {memory: runtime.wasm.memory.buffer.slice(), known};
+  }
+
+  /** What another thread gave. */
+  static async taken({memory, known}) {
+    const runtime = new Runtime(await instantiate(known.module), memory);
+    return Object.assign(Object.create(Shared.prototype), known, {runtime});
+  }
+
+  /** Gets the faces ready to move. */
+  prepare() {
+    this.loadTargets();
+    this.runtime.check(this.runtime.wasm.sweepface_mesh_prepare(this.mesh, 1));
   }
 
   /** Reads what targets do, once. This is put off until the face is to move, so that it is shown sooner. */
@@ -119,7 +138,7 @@ async function openIn(module, bytes, options) {
   const instance = await instantiate(module), {sweepface_rig_load_neutral: isOurs} = instance.exports;
   if (!isOurs) throw new Error('The option wasm is another module than those of sweepface.');
   if (options.needsFull && !instance.exports.sweepface_rig_follow) throw new Error(UNSAID);
-  return new Shared(instance, bytes, options);
+  return new Shared(module, instance, bytes, options);
 }
 
 /** Throws if the bytes are of a kind that is easily taken for a face. */
@@ -131,14 +150,19 @@ function refuseOthers(bytes, name) {
     throw new Error(`${name} is a file of meshes, not a face; make one of it first: sweepface convert.`);
 }
 
-/** Opens a file in the module that it and the options need. */
-export async function open(given, givenOptions) {
+/** A copy of the bytes of a file, which the caller may change or transfer while the module loads, and the options, checked. */
+export function take(given, givenOptions) {
   const all = bytesOf(given);
   if (!all)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
-  const bytes = withoutScene(all);  // a copy: the caller may change or transfer it while the module loads
-  const options = read(givenOptions), {wasm} = options;
+  const bytes = withoutScene(all), options = read(givenOptions);
   refuseOthers(bytes, options.name);
+  return {bytes, options};
+}
+
+/** Opens a file in the module that it and the options need. */
+export async function open(given, givenOptions) {
+  const {bytes, options} = take(given, givenOptions), {wasm} = options;
   if (isGiven(wasm) || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
   const usual = await compile(wasm, 'usual').catch((error) => {
     if (isCompiled('full')) return compile(wasm, 'full');  // at hand already, perhaps from when there was a network

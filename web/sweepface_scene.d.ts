@@ -31,6 +31,8 @@ export interface SweepfaceScene extends GLTF {
 export interface SceneOptions extends Omit<LoadOptions, 'lod' | 'edgeLength' | 'error' | 'vertices'> {
   /** A loader of your own, with the decoders and plugins that the scene needs. */
   gltfLoader?: GLTFLoader | undefined;
+  /** Loads faces: Sweepface.load unless given, or loadInWorker of sweepface/worker. */
+  load?: typeof Sweepface.load | undefined;
 }
 
 /** Loads .sweep files with the scenes that their faces came with. */

@@ -55,12 +55,15 @@ async function geometriesOf({parser}, parts) {
  * and `face`, which moves the meshes in it.
  */
 export class SweepfaceSceneLoader extends SweepfaceLoader {
-  /** `options` are those of Sweepface.load, and `gltfLoader`, a GLTFLoader that has decoders or plugins of its own. */
+  /**
+   * `options` are those of Sweepface.load, `gltfLoader`, a GLTFLoader that has decoders or plugins of its own, and `load`,
+   * loadInWorker.
+   */
   async parseAsync(given, options = {}, usual = this.options) {
-    const {gltfLoader = new GLTFLoader(this.manager), ...others} = withOptions(usual, options);
+    const {gltfLoader = new GLTFLoader(this.manager), load = Sweepface.load, ...others} = withOptions(usual, options);
     const {name = 'The face'} = others, bytes = bytesOf(given)?.slice();  // the caller may change it meanwhile
     checkDetail(others);
-    const face = await Sweepface.load(bytes, others);
+    const face = await load(bytes, others);
     try {
       const scene = await read(bytes, name), folder = this.resourcePath || LoaderUtils.extractUrlBase(name);
       if (scene.vertices !== face.pointCount) throw unfit(name);

@@ -10,6 +10,8 @@ export class SweepfaceMesh<Materials extends Material | Material[] = MeshStandar
 export interface LoaderOptions<M> extends LoadOptions {
   /** The class of the mesh to make: SweepfaceMesh unless given, or SweepfaceGpuMesh, SweepfaceNodeMesh. */
   mesh?: (new (face: Sweepface) => M) | undefined;
+  /** Loads faces: Sweepface.load unless given, or loadInWorker of sweepface/worker. */
+  load?: typeof Sweepface.load | undefined;
 }
 
 /** Loads .sweep files, as three.js's own loaders do. */

@@ -62,7 +62,7 @@ export class SweepfaceLoader extends Loader {
   #downloads = new Set();
   #aborts = 0;
 
-  /** `options` are those of Sweepface.load, and `mesh`, the class to make instead of SweepfaceMesh. */
+  /** `options` are those of Sweepface.load, `mesh`, the class to make instead of SweepfaceMesh, and `load`, loadInWorker. */
   constructor(manager, options) {
     if (manager && typeof manager.itemStart !== 'function')
       throw new TypeError('A loader takes a LoadingManager, or undefined, and its options after it.');
@@ -117,7 +117,7 @@ export class SweepfaceLoader extends Loader {
   /** `usual` are the loader's options at the time when a load began. */
   async parseAsync(bytes, options = {}, usual = this.options) {
     if (typeof options === 'string') throw new TypeError('parseAsync takes bytes and options, no path; faces name no other files.');
-    const {mesh, ...others} = withOptions(usual, options), Made = meshFrom(mesh);
-    return new Made(await Sweepface.load(bytes, others));
+    const {mesh, load = Sweepface.load, ...others} = withOptions(usual, options), Made = meshFrom(mesh);
+    return new Made(await load(bytes, others));
   }
 }

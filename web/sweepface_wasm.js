@@ -53,7 +53,7 @@ const MODULES = {
   full: () => new URL('./sweepface_full.wasm', import.meta.url)
 };
 
-function urlOf(wasm) {
+export function urlOf(wasm) {
   const text = typeof wasm === 'string' ? wasm : wasm.href;
   try {
     if (text && typeof text === 'string') return new URL(text, globalThis.document?.baseURI ?? globalThis.location?.href);
@@ -108,12 +108,25 @@ export const bytesOfText = (text) => encoder.encode(text + '\0');
 
 /** One instance of the module: a file and the faces made from it. Its memory is freed with it. */
 export class Runtime {
-  constructor(instance) {
+  /** `memory` is that of another instance of the module, if this one is to go on where that one was. */
+  constructor(instance, memory) {
     this.wasm = Object.fromEntries(Object.entries(instance.exports).map(([name, it]) => {
       return [name, typeof it === 'function' ? this.watched(it) : it];
     }));
     this.wasm._initialize();
+    if (memory) this.#goOn(memory);
     this.isDead = false;
+  }
+
+  /** All that an instance knows is in its memory, between calls. */
+  #goOn(memory) {
+    const own = this.wasm.memory, lacking = memory.byteLength - own.buffer.byteLength;
+    try {
+      if (lacking > 0) own.grow(lacking / 65536);
+    } catch (error) {
+      throw new MemoryError(error);
+    }
+    new Uint8Array(own.buffer).set(new Uint8Array(memory));
   }
 
   /** Wraps a function of the module. When memory runs out the module traps, and cannot be used from then on. */

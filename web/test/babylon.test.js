@@ -140,6 +140,15 @@ test('a scene is not ready before the face is there', options, async () => {
   assert.equal(scene.isLoading, false);
 });
 
+test('something else may load the face', options, async () => {
+  const {scene, SweepfaceMesh} = await load(), {Sweepface} = await import('../sweepface.js'), given = [];
+  const mesh = await SweepfaceMesh.load(readFileSync(sample), scene, {lod: 2, load: (...all) => {
+    given.push(all[1]);
+    return Sweepface.load(...all);
+  }});
+  assert.deepEqual([given, mesh.face.lod], [[{lod: 2}], 2]);
+});
+
 test('a still face is not evaluated again', options, async () => {
   const {scene, mesh} = await load();
   let count = 0;

@@ -60,9 +60,11 @@ test('the package holds what is needed, and an application can use it', () => {
                     'sweepface_file.js', 'sweepface_full.wasm', 'sweepface_glb.js', 'sweepface_gpu.d.ts',
                     'sweepface_gpu.js', 'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_moved.js',
                     'sweepface_names.js', 'sweepface_pin.js', 'sweepface_regions.js', 'sweepface_scene.d.ts',
-                    'sweepface_scene.js', 'sweepface_scene_face.js', 'sweepface_scene_fill.js', 'sweepface_scene_parts.js', 'sweepface_text.js', 'sweepface_three.d.ts',
+                    'sweepface_scene.js', 'sweepface_scene_face.js', 'sweepface_scene_fill.js',
+                    'sweepface_scene_parts.js', 'sweepface_text.js', 'sweepface_thread.js', 'sweepface_three.d.ts',
                     'sweepface_three.js', 'sweepface_timeline.js', 'sweepface_twin.js', 'sweepface_values.js',
-                    'sweepface_wasm.js', 'sweepface_webgpu.d.ts', 'sweepface_webgpu.js']);
+                    'sweepface_wasm.js', 'sweepface_webgpu.d.ts', 'sweepface_webgpu.js', 'sweepface_worker.d.ts',
+                    'sweepface_worker.js']);
   mkdirSync(join(scratch, 'node_modules'));
   run('tar', ['xf', join(scratch, packed.filename)], scratch);
   symlinkSync(join(scratch, 'package'), join(scratch, 'node_modules', 'sweepface'));
@@ -83,7 +85,7 @@ test('the types say what there is', {skip: existsSync(tsc) ? false : 'typescript
 
 test('Node projects need no types of browsers', {skip: existsSync(tsc) ? false : 'typescript is not installed; try npm ci'}, () => {
   run(tsc, ['--noEmit', '--strict', '--target', 'esnext', '--module', 'nodenext', '--lib', 'esnext', '--types', '',
-            'sweepface.d.ts', 'sweepface_clips.d.ts']);
+            'sweepface.d.ts', 'sweepface_clips.d.ts', 'sweepface_worker.d.ts']);
 });
 
 test('what the types declare is there', async () => {

@@ -8,6 +8,7 @@ import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Regi
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
 import {cloneScene, SceneFace, type SweepfaceScene, SweepfaceSceneLoader} from 'sweepface/scene';
+import {loadInWorker} from 'sweepface/worker';
 import {SweepfaceNodeMesh} from 'sweepface/webgpu';
 import {animationFor, SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
@@ -60,7 +61,7 @@ export class MyBabylonMesh extends BabylonMesh {
 }
 
 export async function useBabylon(scene: BabylonScene, bytes: ArrayBuffer): Promise<void> {
-  const mesh: BabylonMesh = await BabylonMesh.load('face.sweep', scene, {lod: 1});
+  const mesh: BabylonMesh = await BabylonMesh.load('face.sweep', scene, {lod: 1, load: loadInWorker});
   mesh.setWeights({jawOpen: 0.7});
   mesh.moveTo({jawOpen: 0}, {kind: 'spring', frequency: 3});
   mesh.position.x = 3;
@@ -84,6 +85,8 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   const nodes: SweepfaceNodeMesh<MeshBasicMaterial> = new SweepfaceNodeMesh(mesh.face, new MeshBasicMaterial()).clone();
   const loader = new SweepfaceLoader(undefined, {mesh: SweepfaceGpuMesh, lod: 1}), loaded: SweepfaceGpuMesh = await loader.parseAsync(bytes);
   loader.options.mesh = undefined;
+  loader.options.load = loadInWorker;
+  console.log((await loadInWorker(bytes, {lod: 2})).names, new SweepfaceSceneLoader(undefined, {load: loadInWorker}).options);
   // @ts-expect-error That is no mesh of a face.
   new SweepfaceLoader(undefined, {mesh: Scene});
   return loaded.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length + nodes.textureBytes;
