@@ -45,6 +45,7 @@ export class SceneFace extends movedByWeights(Object) {
   #arrays;
   #runs;
   #parts;  // what each geometry is of the face
+  #meshes;
   #scenes;
   #group;  // of all faces that show the same materials
 
@@ -64,17 +65,21 @@ export class SceneFace extends movedByWeights(Object) {
       geometry.boundingBox = null;
       geometry.boundingSphere = new Sphere();
     }
+    this.#meshes = objectsIn(scenes).filter(({geometry}) => parts.has(geometry));
     const index = new Map(face.names.map((name, k) => [name, k]));
-    this[begin](face, this.meshes.map((mesh) => {
+    this[begin](face, this.#meshes.map((mesh) => {
       return {mesh, targets: parts.get(mesh.geometry).names.map((name) => index.get(name) ?? -1)};
     }));
     this.update();
   }
 
   /** The meshes that show the face; nodes may share a geometry. */
-  get meshes() { return objectsIn(this.#scenes).filter(({geometry}) => this.#parts.has(geometry)); }
+  get meshes() { return [...this.#meshes]; }
 
   [show]() {
+    const other = this.#meshes.find(({geometry}) => !this.#parts.has(geometry));
+    if (other)
+      throw new Error(`The mesh '${other.name}' must keep the geometry that it was loaded with, whose vertices follow the face.`);
     this.face.evaluate(this.#arrays.positions, this.#arrays.normals);
     for (const run of this.#runs.values()) run.update();
     for (const geometry of this.#parts.keys()) {

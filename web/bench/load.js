@@ -41,11 +41,28 @@ async function measure(module) {
   return steps;
 }
 
-const all = {};
-for (let k = 0; k < Number(visits); ++k) {
-  const steps = await withPage('blank.html', {files}, (page) => page.evaluate(measure, module));
-  for (const [step, time] of Object.entries(steps)) (all[step] ??= []).push(time);
+/** The same in a worker: until the face is ready to move, and the longest that the page stands still meanwhile. */
+async function measureWorker(module) {
+  const {loadInWorker} = await import('/sweepface_worker.js');
+  const bytes = await (await fetch('/face.sweep')).arrayBuffer(), tick = () => new Promise((done) => { setTimeout(done); });
+  const began = performance.now();
+  let last = began, longest = 0, ready;
+  loadInWorker(bytes, {wasm: `/${module}`}).then(() => { ready = performance.now() - began; });
+  while (!ready) {
+    await tick();
+    const now = performance.now();
+    longest = Math.max(longest, now - last);
+    last = now;
+  }
+  return {'in a worker': ready, 'page stalls': longest};
 }
+
+const all = {};
+for (let k = 0; k < Number(visits); ++k)
+  for (const each of [measure, measureWorker]) {
+    const steps = await withPage('blank.html', {files}, (page) => page.evaluate(each, module));
+    for (const [step, time] of Object.entries(steps)) (all[step] ??= []).push(time);
+  }
 
 console.log(`milliseconds, medians of ${visits} visits (and the least)`);
 for (const [step, times] of Object.entries(all)) {

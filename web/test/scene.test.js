@@ -144,6 +144,13 @@ test('bounds are those of the expression', options, async () => {
   assert.deepEqual(geometry.boundingBox, wide);
 });
 
+test('a mesh whose geometry was replaced says so', options, async () => {
+  const {face} = await load(), [lips] = face.meshes;
+  lips.geometry = lips.geometry.clone();
+  face.setWeights({smile: 1});
+  assert.throws(() => face.update(), {message: /^The mesh 'head_1' must keep the geometry/});
+});
+
 test('a loader may have plugins of its own', options, async () => {
   const {GLTFLoader} = await import('three/addons/loaders/GLTFLoader.js'), seen = [];
   const gltfLoader = new GLTFLoader().register(({json}) => ({
