@@ -2,7 +2,8 @@
 import {at, complain, dismiss, hush, say} from './page_message.js';
 import {average, buildSliders, filterSliders, followWeights, tellFigures} from './page_panel.js';
 import {
-  controls, hasScene, isLost, linesOver, load, placeCamera, removeLines, render, resize, scene, stage, view
+  controls, hasScene, isLost, linesOver, loadAlone, loadScene, placeCamera, removeLines, render, resize, scene,
+  stage, view
 } from './page_stage.js';
 
 const LOST = 'The graphics card is not available to this page; if it does not come back, reload the page.';
@@ -30,8 +31,8 @@ async function show(source, name, keepView = false) {
     if (!buffer) return mine === asked && invite();
     if (mesh) await painted();
     const began = performance.now();
-    const mayHaveScene = await hasScene(buffer, name), inScene = mayHaveScene && at('scene').checked;
-    const next = await load(buffer, {name, inScene, lod: inScene ? 0 : Number(at('lod').value)});
+    const mayHaveScene = await hasScene(buffer, name);
+    const next = await read(buffer, name, mayHaveScene);
     if (mine < shown) return next.mover.dispose();
     stand(next.mover, mesh && keepView ? mesh.face.weights : {});
     remove();
@@ -69,6 +70,17 @@ async function show(source, name, keepView = false) {
 
 /** Resolves once the page's message is on the screen. */
 const painted = () => new Promise((done) => { setTimeout(done, 50); });
+
+/** What a file shows: the face with all that it came with, if that is wanted and can be shown, or alone. */
+async function read(buffer, name, mayHaveScene) {
+  try {
+    if (mayHaveScene && at('scene').checked) return await loadScene(buffer, {name});
+  } catch (error) {
+    at('scene').checked = false;
+    complain(error);
+  }
+  return loadAlone(buffer, {name, lod: Number(at('lod').value)});
+}
 
 /** Gives a new face these weights; disposes of it if that fails. */
 function stand(mover, weights) {

@@ -58,18 +58,22 @@ class FaceInColours extends SweepfaceMesh {
 
 /** Whether a face came with more to see than a mesh in plain colours. */
 export async function hasScene(bytes, name) {
-  const {textures = [], skins = [], meshes = []} = await sceneJson(bytes, name) ?? {};
+  const json = await sceneJson(bytes, name).catch(() => null);  // the face can be shown without
+  const {scenes = [], textures = [], skins = [], meshes = []} = json ?? {};
   const morphs = meshes.flatMap(({primitives}) => primitives).map(({targets = []}) => targets.length > 0);
-  return textures.length + skins.length > 0 || new Set(morphs).size > 1;
+  return scenes.length > 0 && (textures.length + skins.length > 0 || new Set(morphs).size > 1);
 }
 
-/** A face to show, as `object` and what moves it: by itself in plain colours, or with all that it came with. */
-export async function load(bytes, {inScene, ...options}) {
-  if (!inScene) {
-    const mover = await new SweepfaceLoader().parseAsync(bytes, {...options, mesh: FaceInColours});
-    return {mover, object: mover, meshes: [mover]};
-  }
-  const {scene: object, face: mover} = await new SweepfaceSceneLoader().parseAsync(bytes, options);
+/** A face to show, as `object` and what moves it, in plain colours. */
+export async function loadAlone(bytes, options) {
+  const mover = await new SweepfaceLoader().parseAsync(bytes, {...options, mesh: FaceInColours});
+  return {mover, object: mover, meshes: [mover]};
+}
+
+/** The same with all that it came with. */
+export async function loadScene(bytes, options) {
+  const {scene: object, face: mover, parser} = await new SweepfaceSceneLoader().parseAsync(bytes, options);
+  if (parser.json.extensions?.VRM) object.rotation.y = Math.PI;  // avatars of VRM 0 look along -z
   return {mover, object, meshes: mover.meshes};
 }
 

@@ -1,7 +1,8 @@
 // Shared by the meshes of sweepface/gpu and sweepface/webgpu: tables in textures, the attributes that point into them,
 // and materials that follow one face each.
 import {BufferAttribute, DataTexture, NearestFilter, Vector3} from 'three';
-import {FaceMesh, geometryOf, materialsOfClone, meet, share} from './sweepface_mesh.js';
+import {geometryOf} from './sweepface_geometry.js';
+import {FaceMesh, materialsOfClone, meet, share} from './sweepface_mesh.js';
 import {expression, follow, show} from './sweepface_moved.js';
 import {faceFrom} from './sweepface_values.js';
 

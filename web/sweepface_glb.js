@@ -13,7 +13,10 @@ async function inflated(stream) {
   for (let {value, done} = await reader.read(); !done; {value, done} = await reader.read()) {
     parts.push(value);
     length += value.length;
-    if (length > most) throw new RangeError();
+    if (length > most) {
+      await reader.cancel();
+      throw new RangeError();
+    }
   }
   const all = new Uint8Array(length);
   parts.reduce((at, part) => (all.set(part, at), at + part.length), 0);
@@ -23,24 +26,24 @@ async function inflated(stream) {
 /** Undoes the planes of tables of numbers: the format is described in docs/file-format.md. */
 function fromPlanes(planes) {
   const view = viewOf(planes), tables = [];
-  let at = 4;
+  let at = 4, end = 0;
   for (let left = view.getUint32(0, true); left > 0; --left) {
     const [begin, width, rows] = [0, 4, 8].map((field) => view.getUint32(at + field, true));
-    tables.push({begin, width, rows, steps: planes.subarray(at + 12, at + 12 + width)});
+    const steps = planes.subarray(at + 12, at + 12 + width), size = width * rows;
+    const isSound = begin >= end && size > 0 && steps.length === width && steps.every((step) => step < 2);
+    if (!isSound || begin + size > planes.length) throw new RangeError();
+    tables.push({begin, width, rows, steps});
     at += 12 + width;
+    end = begin + size;
   }
   const turned = planes.subarray(at), bytes = turned.slice();
-  let end = 0;
-  for (const {begin, width, rows, steps} of tables) {
-    const isSound = begin >= end && width * rows > 0 && begin + width * rows <= bytes.length;
-    if (!isSound) throw new RangeError();
-    end = begin + width * rows;
+  if (end > bytes.length) throw new RangeError();
+  for (const {begin, width, rows, steps} of tables)
     for (let plane = 0; plane < width; ++plane)
       for (let row = 0, before = 0; row < rows; ++row) {
         const byte = turned[begin + plane * rows + row];
         bytes[begin + row * width + plane] = before = steps[plane] ? before + byte & 255 : byte;
       }
-  }
   return bytes;
 }
 

@@ -2,13 +2,13 @@
 import {isWeight} from './sweepface_values.js';
 
 /**
- * What a class defines for itself: `show` brings weights to the screen, `follow` handles other changes. And what it may
- * use: `begin` takes the face and the meshes whose influences move it, `takeInfluences` sets weights from these.
+ * What a class defines for itself: `show` brings weights to the screen, `follow` handles other changes, `release` frees
+ * what it holds besides the face. And what it may use: `begin` takes the face and the meshes whose influences move it, `takeInfluences` sets weights from these.
  * `expression` is an object that identifies the current expression, `shown` the one that is on show.
  */
 export const show = Symbol('show'), follow = Symbol('follow'), begin = Symbol('begin');
 export const takeInfluences = Symbol('takeInfluences'), expression = Symbol('expression'), shown = Symbol('shown');
-export const isGone = Symbol('isGone');
+export const isGone = Symbol('isGone'), release = Symbol('release');
 
 /**
  * A class of what shows a face. Weights can be set at any time; `update` brings them to the screen. They are also
@@ -80,13 +80,13 @@ export const movedByWeights = (Base) => class extends Base {
 
   /** Sets the weights whose influences others have set. Ignores values that are no weights, which others may write. */
   [takeInfluences]() {
-    let set;
+    const set = [];
     for (const {mesh: {morphTargetInfluences: influences}, targets, told} of this.#followers)
       for (let k = 0; influences && k < told.length; ++k)
-        if (influences[k] !== told[k] && targets[k] >= 0 && isWeight(influences[k]))
-          (set ??= {})[this.face.names[targets[k]]] = influences[k];
-    if (!set) return;
-    this.face.setWeights(set);
+        if (influences[k] !== told[k] && targets[k] >= 0 && isWeight(influences[k])) set.push([targets[k], influences[k]]);
+    if (set.length === 0) return;
+    const {names} = this.face;
+    this.face.setWeights(Object.fromEntries(set.map(([target, weight]) => [names[target], weight])));
     this.#tellInfluences();
   }
 
@@ -124,9 +124,12 @@ export const movedByWeights = (Base) => class extends Base {
 
   [follow]() {}
 
-  /** Frees the face. */
+  [release]() {}
+
   dispose() {
+    if (this.#isGone) return;
     this.#isGone = true;
+    this[release]();
     this.face.dispose();
   }
 };

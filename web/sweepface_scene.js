@@ -1,15 +1,12 @@
 // Whole scenes for three.js: what a glTF file held when it was converted (skeletons, materials, textures, other meshes,
 // animations), with the face in it.
-import {LoaderUtils} from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
-import {Sweepface} from './sweepface.js';
-import {withOptions} from './sweepface_file.js';
 import {damaged, formatGlb, sceneOf} from './sweepface_glb.js';
 import {SceneFace} from './sweepface_scene_face.js';
 import {fill, unfit, withoutShapes} from './sweepface_scene_fill.js';
 import {partsOf} from './sweepface_scene_parts.js';
-import {SweepfaceLoader} from './sweepface_three.js';
-import {bytesOf} from './sweepface_values.js';
+import {settings, SweepfaceLoader} from './sweepface_three.js';
+import {bytesOf, isGiven} from './sweepface_values.js';
 
 export {SceneFace};
 
@@ -23,7 +20,7 @@ function checkDetail({lod, edgeLength, error, vertices}) {
 
 /** The JSON of the glTF file that a face came with, or null if there is no scene in the file. */
 export async function sceneJson(given, name = 'The face') {
-  const bytes = bytesOf(given);
+  const bytes = bytesOf(given)?.slice();  // as views of shared memory are not taken everywhere
   if (!bytes) throw new TypeError('sceneJson needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
   return (await sceneOf(bytes, name))?.json ?? null;
 }
@@ -32,11 +29,22 @@ export async function sceneJson(given, name = 'The face') {
 async function read(bytes, name) {
   const scene = await sceneOf(bytes, name);
   if (!scene) throw new Error(`${name} ${NO_SCENE}`);
+  if (!scene.json.scenes?.length)
+    throw new Error(`${name}: its glTF file has nodes, but no scene of them; load the face alone by SweepfaceLoader.`);
   try {
     const {parts, vertices} = partsOf(scene.json);
     return {...scene, json: withoutShapes(scene.json, parts), parts, vertices};
   } catch (cause) {
     throw damaged(name, cause);
+  }
+}
+
+/** What GLTFLoader makes of a scene. */
+async function parse(scene, loader, folder, name) {
+  try {
+    return await loader.parseAsync(formatGlb(scene), folder);
+  } catch (cause) {
+    throw new Error(`${name}: its scene cannot be shown: ${cause.message}`, {cause});
   }
 }
 
@@ -55,19 +63,28 @@ async function geometriesOf({parser}, parts) {
  * and `face`, which moves the meshes in it.
  */
 export class SweepfaceSceneLoader extends SweepfaceLoader {
+  /** A loader for the scene, where none is given. */
+  #gltfLoader() {
+    const {manager, crossOrigin, requestHeader, withCredentials} = this;
+    return new GLTFLoader(manager).setCrossOrigin(crossOrigin).setRequestHeader(requestHeader).setWithCredentials(withCredentials);
+  }
+
   /**
    * `options` are those of Sweepface.load, `gltfLoader`, a GLTFLoader that has decoders or plugins of its own, and `load`,
    * loadInWorker.
    */
-  async parseAsync(given, options = {}, usual = this.options) {
-    const {gltfLoader = new GLTFLoader(this.manager), load = Sweepface.load, ...others} = withOptions(usual, options);
-    const {name = 'The face'} = others, bytes = bytesOf(given)?.slice();  // the caller may change it meanwhile
+  async parseAsync(given, options, usual = this.options, folder = '') {
+    const {load, others: {gltfLoader, ...others}} = settings(usual, options);
+    if (isGiven(gltfLoader) && typeof gltfLoader.parseAsync !== 'function')
+      throw new TypeError("The option 'gltfLoader' is a GLTFLoader.");
+    const name = others.name || 'The face', bytes = bytesOf(given)?.slice();  // the caller may change it meanwhile
     checkDetail(others);
     const face = await load(bytes, others);
     try {
-      const scene = await read(bytes, name), folder = this.resourcePath || LoaderUtils.extractUrlBase(name);
+      const scene = await read(bytes, name);
       if (scene.vertices !== face.pointCount) throw unfit(name);
-      const gltf = await gltfLoader.parseAsync(formatGlb(scene), folder), geometries = await geometriesOf(gltf, scene.parts);
+      const gltf = await parse(scene, gltfLoader ?? this.#gltfLoader(), this.resourcePath || folder, name);
+      const geometries = await geometriesOf(gltf, scene.parts);
       fill(scene.json, geometries, face, name);
       const parts = new Map([...geometries].map(([part, geometry]) => [geometry, part]));
       return Object.assign(gltf, {face: new SceneFace(face, gltf.scenes, parts)});

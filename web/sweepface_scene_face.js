@@ -1,35 +1,36 @@
 // The face of a scene: the meshes that follow its weights.
 import {BufferAttribute, DynamicDrawUsage, Matrix3, Matrix4, Sphere} from 'three';
 import * as SkeletonUtils from 'three/addons/utils/SkeletonUtils.js';
-import {begin, movedByWeights, show, takeInfluences} from './sweepface_moved.js';
+import {FaceGeometry, faceGeometryOf} from './sweepface_geometry.js';
+import {begin, movedByWeights, release, show, takeInfluences} from './sweepface_moved.js';
 import {bound} from './sweepface_three.js';
 import {twinOf} from './sweepface_twin.js';
 
-/** Vertices that meshes share: attributes that follow the face, whose positions and normals are in the space of the scene. */
+/** Attributes that follow the face. */
+const CHANGING = ['position', 'normal'];
+
+/** Vertices that meshes share: attributes for their part of a face's positions and normals. */
 class Run {
-  #inScene;
-  #toMesh;  // from the space of the scene to that of the mesh; null if they are the same
+  #toMesh;  // from the space of the scene to that of the mesh, unless they are the same
+  bounds = new Sphere();
 
   constructor({first, count, world}, {positions, normals}) {
-    const own = ([name, array]) => [name, array.subarray(3 * first, 3 * (first + count))];
-    this.#inScene = Object.fromEntries(Object.entries({position: positions, normal: normals}).map(own));
-    if (!world.equals(new Matrix4())) {
-      const points = world.clone().invert();
-      this.#toMesh = {points, normals: new Matrix3().getNormalMatrix(points)};
-    }
-    const attribute = (array) => new BufferAttribute(this.#toMesh ? array.slice() : array, 3).setUsage(DynamicDrawUsage);
-    this.position = attribute(this.#inScene.position);
-    this.normal = attribute(this.#inScene.normal);
+    const attribute = (all) => new BufferAttribute(all.subarray(3 * first, 3 * (first + count)), 3).setUsage(DynamicDrawUsage);
+    this.position = attribute(positions);
+    this.normal = attribute(normals);
+    if (world.equals(new Matrix4())) return;
+    const points = world.clone().invert();
+    this.#toMesh = {points, normals: new Matrix3().getNormalMatrix(points)};
   }
 
-  /** Brings the attributes up to date. */
+  /** Brings the attributes to the space of the mesh after the face has been evaluated. */
   update() {
-    const {position, normal} = this;
     if (this.#toMesh) {
-      position.copyArray(this.#inScene.position).applyMatrix4(this.#toMesh.points);
-      normal.copyArray(this.#inScene.normal).applyNormalMatrix(this.#toMesh.normals);
+      this.position.applyMatrix4(this.#toMesh.points);
+      this.normal.applyNormalMatrix(this.#toMesh.normals);
     }
-    position.needsUpdate = normal.needsUpdate = true;
+    this.position.needsUpdate = this.normal.needsUpdate = true;
+    bound(this.position, this.bounds);
   }
 }
 
@@ -40,35 +41,67 @@ function objectsIn(scenes) {
   return found;
 }
 
+/** Geometries, materials and their textures, all of which renderers hold on to. */
+function resourcesOf(objects, isOwn) {
+  const found = new Set();
+  for (const each of objects.flatMap(({geometry, material}) => [geometry, material].flat()).filter(Boolean)) {
+    if (isOwn(each)) continue;
+    found.add(each);
+    const uniforms = Object.values(each.uniforms ?? {}).map((uniform) => uniform?.value);
+    for (const value of [...Object.values(each), ...uniforms]) if (value?.isTexture) found.add(value);
+  }
+  return found;
+}
+
+/** Gives meshes of the face geometries that `make` makes of theirs; returns what each of these is of the face. */
+function refit(objects, parts, make) {
+  const made = new Map();
+  for (const object of objects.filter(({geometry}) => parts.has(geometry))) {
+    const {geometry} = object;
+    if (!made.has(geometry)) made.set(geometry, make(geometry));
+    object.geometry = made.get(geometry);
+  }
+  return new Map([...made].map(([geometry, own]) => [own, parts.get(geometry)]));
+}
+
+const freshGeometry = (geometry) => faceGeometryOf(geometry, CHANGING);
+
+function clonedGeometry(geometry) {
+  const clone = new FaceGeometry().fix(CHANGING);
+  clone.take(geometry);
+  return clone;
+}
+
 /** The face of a scene. Whatever moves morph targets moves it, too. */
 export class SceneFace extends movedByWeights(Object) {
   #arrays;
   #runs;
-  #parts;  // what each geometry is of the face
+  #parts;   // what each geometry is of the face
   #meshes;
-  #scenes;
-  #group;  // of all faces that show the same materials
+  #own;     // what else goes with the face
+  #shared;  // by a model and its clones: {users, resources}
 
-  /** `parts` is a map from the geometries in the scenes that show the face: {run, names}. */
-  constructor(face, scenes, parts, group = new Set()) {
+  /** `parts` is a map from geometries in the scenes, which make room for others: {run, names}. */
+  constructor(face, scenes, parts, make = freshGeometry, shared) {
     super();
-    const numbers = () => new Float32Array(3 * face.vertexCount), runs = new Set([...parts.values()].map(({run}) => run));
+    const numbers = () => new Float32Array(3 * face.vertexCount), objects = objectsIn(scenes);
     this.#arrays = {positions: numbers(), normals: numbers()};
+    this.#parts = refit(objects, parts, make);
+    const runs = new Set([...this.#parts.values()].map(({run}) => run));
     this.#runs = new Map([...runs].map((run) => [run, new Run(run, this.#arrays)]));
-    this.#scenes = scenes;
-    this.#parts = parts;
-    this.#group = group.add(this);
-    for (const [geometry, {run}] of parts) {
-      const {position, normal} = this.#runs.get(run);
+    this.#meshes = objects.filter(({geometry}) => this.#parts.has(geometry));
+    this.#own = objects.flatMap((object) => [object.skeleton, object.isInstancedMesh && object]).filter(Boolean);
+    this.#shared = shared ?? {users: 0, resources: resourcesOf(objects, (each) => this.#parts.has(each))};
+    ++this.#shared.users;
+    for (const [geometry, {run}] of this.#parts) {
+      const {position, normal, bounds} = this.#runs.get(run);
       geometry.setAttribute('position', position);
       if (geometry.attributes.normal) geometry.setAttribute('normal', normal);
-      geometry.boundingBox = null;
-      geometry.boundingSphere = new Sphere();
+      geometry.boundingSphere = bounds;
     }
-    this.#meshes = objectsIn(scenes).filter(({geometry}) => parts.has(geometry));
     const index = new Map(face.names.map((name, k) => [name, k]));
     this[begin](face, this.#meshes.map((mesh) => {
-      return {mesh, targets: parts.get(mesh.geometry).names.map((name) => index.get(name) ?? -1)};
+      return {mesh, targets: this.#parts.get(mesh.geometry).names.map((name) => index.get(name) ?? -1)};
     }));
     this.update();
   }
@@ -82,37 +115,24 @@ export class SceneFace extends movedByWeights(Object) {
       throw new Error(`The mesh '${other.name}' must keep the geometry that it was loaded with, whose vertices follow the face.`);
     this.face.evaluate(this.#arrays.positions, this.#arrays.normals);
     for (const run of this.#runs.values()) run.update();
-    for (const geometry of this.#parts.keys()) {
-      bound(geometry.attributes.position, geometry.boundingSphere);
-      if (geometry.boundingBox) geometry.computeBoundingBox();
-    }
+    for (const geometry of this.#parts.keys()) if (geometry.boundingBox) geometry.computeBoundingBox();
   }
 
   /** A copy of a scene with a face of its own, in the same pose: {scene, face}. */
   cloneIn(scene) {
     this[takeInfluences]();
-    const copy = SkeletonUtils.clone(scene), parts = new Map(), own = new Map();
-    for (const object of objectsIn([copy]).filter(({geometry}) => this.#parts.has(geometry))) {
-      const {geometry} = object;
-      if (!own.has(geometry)) own.set(geometry, geometry.clone());
-      object.geometry = own.get(geometry);
-      parts.set(object.geometry, this.#parts.get(geometry));
+    const copy = SkeletonUtils.clone(scene), face = twinOf(this.face);
+    try {
+      return {scene: copy, face: new SceneFace(face, [copy], this.#parts, clonedGeometry, this.#shared)};
+    } catch (error) {
+      face.dispose();
+      throw error;
     }
-    return {scene: copy, face: new SceneFace(twinOf(this.face), [copy], parts, this.#group)};
   }
 
-  /** Frees the face and its geometries, and what else the scene holds with the last of its clones. */
-  dispose() {
-    super.dispose();
-    this.#group.delete(this);
-    const isLast = this.#group.size === 0, all = new Set(this.#parts.keys());
-    for (const {geometry, material, skeleton} of objectsIn(this.#scenes)) {
-      if (skeleton) all.add(skeleton);
-      for (const shared of isLast ? [geometry, material].flat().filter(Boolean) : []) all.add(shared);
-    }
-    for (const each of all) {
-      for (const texture of Object.values(each).filter((value) => value?.isTexture)) texture.dispose();
-      each.dispose();
-    }
+  /** Frees the geometries of the face, and what else the scene was loaded with if no clone shows it. */
+  [release]() {
+    const isLast = --this.#shared.users === 0;
+    for (const each of [...this.#parts.keys(), ...this.#own, ...(isLast ? this.#shared.resources : [])]) each.dispose();
   }
 }

@@ -4,6 +4,9 @@ import {BufferAttribute} from 'three';
 /** What is wrong with a scene that belongs to another face. */
 export const unfit = (name) => new Error(`${name}: the face and its scene do not fit; convert the source again.`);
 
+const repainted = (name) =>
+  new Error(`${name}: the face has other materials than its scene; export it as a .glb and convert that.`);
+
 const primitiveOf = (json, {mesh, primitive}) => json.meshes[mesh].primitives[primitive];
 
 function isEmpty({accessors}, index) {
@@ -24,59 +27,77 @@ export function withoutShapes(given, parts) {
   return json;
 }
 
-/** The face's triangles in the runs where they lie, as indices into these. In a mirrored mesh they are the other way round. */
-function trianglesOf(face, runs) {
-  const {triangles, pointCount, copies} = face, runOf = new Uint32Array(pointCount), found = runs.map(() => []);
-  runs.forEach(({first, count}, r) => runOf.fill(r, first, first + count));
-  const point = (vertex) => (vertex < pointCount ? vertex : copies[vertex - pointCount]);
-  for (let k = 0; k < triangles.length; k += 3) {
-    const r = runOf[point(triangles[k])], {first, mirrors} = runs[r];
-    const [a, b, c] = [0, 1, 2].map((corner) => point(triangles[k + corner]) - first);
-    found[r].push(a, mirrors ? c : b, mirrors ? b : c);
-  }
-  return new Map(runs.map((run, r) => [run, Uint32Array.from(found[r])]));
-}
-
 /** How many triangles of three different vertices a geometry has. */
 function countTriangles({index, attributes: {position}}) {
   if (!index) return Math.floor(position.count / 3);
   let count = 0;
   for (let k = 0; k + 2 < index.count; k += 3) {
-    const [a, b, c] = [0, 1, 2].map((corner) => index.getX(k + corner));
+    const a = index.getX(k), b = index.getX(k + 1), c = index.getX(k + 2);
     count += a !== b && b !== c && c !== a;
   }
   return count;
 }
 
-/** Parts in the order in which the face lists its triangles: by material, in the order of their first use. */
-function byMaterial(json, parts) {
-  const materialOf = (part) => primitiveOf(json, part).material ?? -1;
-  const materials = [...new Set(parts.map(materialOf))].filter((material) => material >= 0);
-  const rank = (part) => materials.indexOf(materialOf(part));  // -1 if it has none, as the face has it
-  return [...parts].sort((a, b) => rank(a) - rank(b));
+/** The names of a scene's materials in the face: a number tells those of one name apart. */
+function materialNames({materials = []}) {
+  const taken = new Set(), again = new Map();
+  return materials.map(({name: own}, k) => {
+    const wanted = typeof own === 'string' && own !== '' ? own : `material_${k}`;
+    let name = wanted;
+    while (taken.has(name)) {
+      again.set(wanted, (again.get(wanted) ?? 1) + 1);
+      name = `${wanted} ${again.get(wanted)}`;
+    }
+    taken.add(name);
+    return name;
+  });
 }
 
-/** The face's texture coordinates of a run, with v downwards. */
-function texcoordsOf({texcoords}, {first, count}) {
-  const own = new Float32Array(2 * count);
-  for (let k = 0; texcoords && k < own.length; k += 2)
-    own.set([texcoords[2 * first + k], 1 - texcoords[2 * first + k + 1]], k);
-  return new BufferAttribute(own, 2);
+/**
+ * The parts in the order in which the face lists its triangles: by material, in the order of their first use, those
+ * without one first. `counts` are the triangles of the parts. Returns undefined if the face has other materials.
+ */
+function inOrder(json, parts, counts, face) {
+  const listed = face.parts, names = materialNames(json);
+  if (listed.length === 1) return parts;
+  const groups = new Map([[undefined, []]]);
+  for (const part of parts) {
+    const {material} = primitiveOf(json, part);
+    groups.set(material, [...groups.get(material) ?? [], part]);
+  }
+  const sum = (group) => group.reduce((total, part) => total + 3 * counts.get(part), 0);
+  const own = [...groups].filter(([, group]) => sum(group) > 0);
+  const isSame = own.length === listed.length && own.every(([material, group], k) => {
+    return listed[k].count === sum(group) && listed[k].material === (names[material] ?? '');
+  });
+  return isSame ? own.flatMap(([, group]) => group) : undefined;
 }
 
 /** Gives the geometries of the parts, a map from these, what the scene leaves to the face. */
 export function fill(json, geometries, face, name) {
-  const parts = [...geometries.keys()], runs = [...new Set(parts.map(({run}) => run))];
-  const triangles = trianglesOf(face, runs), taken = new Map(runs.map((run) => [run, 0]));
-  const texcoords = new Map(runs.map((run) => [run, texcoordsOf(face, run)]));
-  for (const part of byMaterial(json, parts)) {
-    const {run} = part, geometry = geometries.get(part), {indices, attributes} = primitiveOf(json, part);
-    const isLeft = isEmpty(json, indices), all = triangles.get(run), begin = taken.get(run);
-    const end = begin + (isLeft ? geometry.index.count : 3 * countTriangles(geometry));
-    if (end > all.length) throw unfit(name);
-    taken.set(run, end);
-    if (isLeft) geometry.setIndex(new BufferAttribute(all.subarray(begin, end), 1));
-    if (isEmpty(json, attributes.TEXCOORD_0)) geometry.setAttribute('uv', texcoords.get(run));
-    geometry.morphAttributes = {};
+  const {triangles, texcoords, copies, pointCount} = face, parts = [...geometries.keys()];
+  const isLeft = (part) => isEmpty(json, primitiveOf(json, part).indices);
+  const counts = new Map(parts.map((part) => {
+    const geometry = geometries.get(part);
+    return [part, isLeft(part) ? geometry.index.count / 3 : countTriangles(geometry)];
+  }));
+  const ordered = inOrder(json, parts, counts, face);
+  if (!ordered) throw repainted(name);
+  const uvs = new Map();
+  let at = 0;
+  for (const part of ordered) {
+    const {run: {first, count, mirrors}} = part, geometry = geometries.get(part), end = at + 3 * counts.get(part);
+    const hasUv = texcoords && isEmpty(json, primitiveOf(json, part).attributes.TEXCOORD_0);
+    if (!isLeft(part)) at = end;
+    else geometry.setIndex(new BufferAttribute(count < 65536 ? new Uint16Array(end - at) : new Uint32Array(end - at), 1));
+    if (hasUv && !uvs.has(part.run)) uvs.set(part.run, new BufferAttribute(new Float32Array(2 * count), 2));
+    if (hasUv) geometry.setAttribute('uv', uvs.get(part.run));
+    for (let k = 0; at < end; ++at, ++k) {
+      const vertex = triangles[at], own = (vertex < pointCount ? vertex : copies[vertex - pointCount]) - first;
+      if (!(own >= 0 && own < count)) throw unfit(name);
+      geometry.index.array[mirrors && k % 3 > 0 ? k + 3 - 2 * (k % 3) : k] = own;
+      if (hasUv) uvs.get(part.run).setXY(own, texcoords[2 * vertex], 1 - texcoords[2 * vertex + 1]);
+    }
   }
+  if (at !== triangles.length) throw unfit(name);
 }

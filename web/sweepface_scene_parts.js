@@ -11,16 +11,19 @@ function localMatrix({matrix, translation = [0, 0, 0], rotation = [0, 0, 0, 1], 
   return new Matrix4().compose(new Vector3(...translation), new Quaternion(...rotation), new Vector3(...scale));
 }
 
-/** The matrices that place the nodes in the scene. */
+/** The matrices that place the nodes in the scene; throws if nodes are children of several others or of each other. */
 function worldMatrices(nodes) {
-  const parents = [];
-  nodes.forEach((node, n) => listOf(node, 'children').forEach((child) => parents[child] = n));
-  return nodes.map((node, n) => {
-    const world = localMatrix(node);
-    for (let up = parents[n], left = nodes.length; up !== undefined && left > 0; up = parents[up], --left)
-      world.premultiply(localMatrix(nodes[up]));
-    return world;
-  });
+  const isChild = new Set(nodes.flatMap((node) => listOf(node, 'children'))), world = [];
+  const order = [...nodes.keys()].filter((n) => !isChild.has(n));
+  for (const n of order) world[n] = localMatrix(nodes[n]);
+  for (const n of order)  // which grows
+    for (const child of listOf(nodes[n], 'children')) {
+      if (world[child]) throw new RangeError();
+      world[child] = localMatrix(nodes[child]).premultiply(world[n]);
+      order.push(child);
+    }
+  if (order.length !== nodes.length) throw new RangeError();
+  return world;
 }
 
 /** Whether each node is in a scene. */
@@ -46,7 +49,7 @@ function placements(json) {
 
 /** The names of a mesh's targets; those without one are called by their numbers. */
 function targetNames(mesh, primitive) {
-  const isBlank = (name) => typeof name !== 'string' || name.trim() === '';
+  const isBlank = (name) => typeof name !== 'string' || !/[^ \t-\r]/.test(name);
   const given = [mesh, primitive].map(({extras}) => extras?.targetNames).find(Array.isArray) ?? [];
   const names = primitive.targets.map((_, t) => given[t]), taken = new Set(names);
   let free = 0;  // the numbers from t up to it are taken

@@ -1,8 +1,9 @@
 // .sweep faces for three.js: a loader, and a mesh whose geometry follows the weights.
-import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
+import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader, LoaderUtils} from 'three';
 import {Sweepface} from './sweepface.js';
 import {withOptions} from './sweepface_file.js';
-import {FaceMesh, geometryOf, standing} from './sweepface_mesh.js';
+import {geometryOf} from './sweepface_geometry.js';
+import {FaceMesh, standing} from './sweepface_mesh.js';
 import {show} from './sweepface_moved.js';
 import {ownOptions} from './sweepface_regions.js';
 import {boxOf, faceFrom, nameOf, otherGeometry} from './sweepface_values.js';
@@ -57,6 +58,15 @@ function meshFrom(mesh = SweepfaceMesh) {
   throw new TypeError("The option 'mesh' is a class: SweepfaceMesh, SweepfaceGpuMesh or SweepfaceNodeMesh.");
 }
 
+/** What loads faces, and the other options: usual ones and those that replace them. */
+export function settings(usual, options) {
+  if (typeof options === 'string') throw new TypeError('parseAsync takes bytes and options, no path; faces name no other files.');
+  const {load, ...others} = withOptions(usual, options);
+  if (!['undefined', 'function'].includes(typeof load))
+    throw new TypeError("The option 'load' is a function: Sweepface.load or loadInWorker.");
+  return {load: load ?? Sweepface.load, others};
+}
+
 /** Loads a .sweep file as a mesh, as three.js's own loaders do. */
 export class SweepfaceLoader extends Loader {
   #downloads = new Set();
@@ -75,12 +85,13 @@ export class SweepfaceLoader extends Loader {
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
     const tell = onError ?? console.error, name = usual.name || nameOf(url), aborts = this.#aborts;
+    const folder = LoaderUtils.extractUrlBase(this.path + url);
     const deliver = (mesh) => {
       if (aborts === this.#aborts) return onLoad(mesh);
       (mesh.dispose ? mesh : mesh.face).dispose();  // of a scene
       throw new DOMException('The load was aborted.', 'AbortError');
     };
-    const parse = (bytes) => this.parseAsync(bytes, {name}, usual).then(deliver).catch((error) => {
+    const parse = (bytes) => this.parseAsync(bytes, {name}, usual, folder).then(deliver).catch((error) => {
       manager.itemError(url);
       tell(error);
     }).finally(() => manager.itemEnd(url));
@@ -115,9 +126,8 @@ export class SweepfaceLoader extends Loader {
   }
 
   /** `usual` are the loader's options at the time when a load began. */
-  async parseAsync(bytes, options = {}, usual = this.options) {
-    if (typeof options === 'string') throw new TypeError('parseAsync takes bytes and options, no path; faces name no other files.');
-    const {mesh, load = Sweepface.load, ...others} = withOptions(usual, options), Made = meshFrom(mesh);
+  async parseAsync(bytes, options, usual = this.options) {
+    const {load, others: {mesh, ...others}} = settings(usual, options), Made = meshFrom(mesh);
     return new Made(await load(bytes, others));
   }
 }

@@ -295,9 +295,18 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#lines').uncheck();
     await page.locator('#scene').check();
     await shown(true);
+    const {json, binary} = model();
+    json.extensionsUsed = json.extensionsRequired = ['KHR_texture_basisu'];  // for which the page has no decoder
+    json.textures[0] = {extensions: {KHR_texture_basisu: {source: 0}}};
+    await open('basis.sweep', readFileSync(converted({json, binary})));
+    await shown(false);
+    assert.match(await said(), /^basis\.sweep: its scene cannot be shown: .*setKTX2Loader/);
+    await page.locator('#scene').check();
+    await until(() => !document.getElementById('scene').checked);
     await open('again.sweep', bytes);
     await shown(false);
     assert.deepEqual(await choices(), [true, false, false]);
+    await page.locator('#scene').evaluate((choice) => { choice.checked = true; });
     await page.locator('#lod').selectOption('2');
     await until(() => globalThis.sweepface.mesh.face.lod === 2);
   });

@@ -255,7 +255,7 @@ test('a damaged scene says so, and its face is freed', {...options, timeout: 60_
   const told = {message: 'model.sweep: its scene is damaged; convert the source again.'};
   for (const text of [[], [120, 156, 1], [...deflateSync(Buffer.from('no GLB'))], [...deflateSync(Buffer.alloc(1e7))], planes(numbers(7)),
                       planes(numbers(1, 0, 0xffffffff, 0)), planes(numbers(1, 9, 1, 1), Buffer.from([0, 1, 2])), [...Buffer.from('glTF and no more')],
-                      glbOf('{"a"'), glbOf('{"meshes": [1]}')])
+                      glbOf('{"a"'), glbOf('{"meshes": [1], "scenes": [{}]}')])
     await assert.rejects(load(withScene(text)), told, String(text));
   const flipped = Buffer.from(bytes);
   flipped[flipped.indexOf('scen') + 40] ^= 1;
