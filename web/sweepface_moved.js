@@ -21,12 +21,15 @@ export const movedByWeights = (Base) => class extends Base {
   #expression = {};  // a new object whenever weights or eyes are set
   #shown;
 
-  /** `meshes` have influences, the k-th of the target number `targets[k]`, which is -1 if the face has no such target. */
-  [begin](face, meshes) {
+  /**
+   * `meshes` have influences, the k-th of the target number `targets[k]`, which is -1 if the face has no such target.
+   * If `isPosed`, the face takes its weights from these.
+   */
+  [begin](face, meshes, isPosed = false) {
     this.face = face;
     this.#followers = meshes.map(({mesh, targets}) => ({mesh, targets, told: targets.map(() => 0)}));
     this.#moving = face.advance(0);
-    this[takeInfluences]();
+    if (isPosed) this[takeInfluences]();
     this.#tellInfluences();
   }
 

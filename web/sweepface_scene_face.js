@@ -102,7 +102,7 @@ export class SceneFace extends movedByWeights(Object) {
     const index = new Map(face.names.map((name, k) => [name, k]));
     this[begin](face, this.#meshes.map((mesh) => {
       return {mesh, targets: this.#parts.get(mesh.geometry).names.map((name) => index.get(name) ?? -1)};
-    }));
+    }), !shared);
     this.update();
   }
 

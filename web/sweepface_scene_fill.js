@@ -81,9 +81,9 @@ export function fill(json, geometries, face, name) {
     const geometry = geometries.get(part);
     return [part, isLeft(part) ? geometry.index.count / 3 : countTriangles(geometry)];
   }));
-  const ordered = inOrder(json, parts, counts, face);
+  if (3 * parts.reduce((sum, part) => sum + counts.get(part), 0) !== triangles.length) throw unfit(name);
+  const ordered = inOrder(json, parts, counts, face), uvs = new Map();
   if (!ordered) throw repainted(name);
-  const uvs = new Map();
   let at = 0;
   for (const part of ordered) {
     const {run: {first, count, mirrors}} = part, geometry = geometries.get(part), end = at + 3 * counts.get(part);
@@ -99,5 +99,4 @@ export function fill(json, geometries, face, name) {
       if (hasUv) uvs.get(part.run).setXY(own, texcoords[2 * vertex], 1 - texcoords[2 * vertex + 1]);
     }
   }
-  if (at !== triangles.length) throw unfit(name);
 }

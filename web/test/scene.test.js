@@ -3,7 +3,9 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
-import {deflateSync} from 'node:zlib';
+import {deflateSync, inflateSync} from 'node:zlib';
+import {sceneText} from '../sweepface_chunks.js';
+import {formatGlb} from '../sweepface_glb.js';
 import {skip, withPage} from './browser.js';
 import {newFolder, tool} from './native.js';
 import {converted, model} from './scene_file.js';
@@ -59,43 +61,143 @@ function placesOf(mesh) {
 
 const furthest = (a, b) => Math.max(...a.map((point, k) => point.distanceTo(b[k])));
 
-/** The quads' halves may be cut along the other diagonal: the vertices around which triangles lie, and which way. */
-function areaOf({geometry: {index, attributes: {position}}}) {
-  const sum = new three.Vector3(), at = (k) => new three.Vector3().fromBufferAttribute(position, index.getX(k));
-  for (let k = 0; k < index.count; k += 3) sum.add(at(k + 1).sub(at(k)).cross(at(k + 2).sub(at(k))));
-  return sum;
+/** What triangles of a mesh cover: the vertices that they name, and their area. Quads may be cut along either diagonal. */
+function coverOf({geometry: {index, attributes: {position}}}, places) {
+  const corners = index?.array ?? [...Array(position.count).keys()], area = new three.Vector3();
+  for (let k = 0; k < corners.length; k += 3) {
+    const [a, b, c] = [0, 1, 2].map((corner) => places[corners[k + corner]]);
+    area.add(b.clone().sub(a).cross(c.clone().sub(a)));
+  }
+  return {area, vertices: [...new Set(corners)].sort((a, b) => a - b)};
 }
 
-test('a scene has all that the file had, and the face stands where an exported one does', options, async () => {
-  const {face, scene, ...rest} = await load(), truth = await exportedScene(file);
-  const mine = meshesOf({scene, ...rest}), theirs = meshesOf(truth);
+/** Whether two meshes show the same in an expression: vertices, triangles and what does not move. */
+function assertShowsTheSame(mesh, other, name) {
+  const mine = mesh.geometry.attributes, theirs = other.geometry.attributes, [places, those] = [mesh, other].map(placesOf);
+  const cover = coverOf(mesh, places), covered = coverOf(other, those);
+  assert.ok(furthest(places, those) < 0.004, `${name} ${furthest(places, those)}`);
+  assert.deepEqual(Object.keys(mine).sort(), Object.keys(theirs).sort());
+  assert.deepEqual(cover.vertices, covered.vertices, name);
+  assert.ok(cover.area.distanceTo(covered.area) < 0.01 * covered.area.length(), name);
+  for (const vertex of cover.vertices)
+    assert.deepEqual([mine.uv?.getX(vertex), mine.uv?.getY(vertex)], [theirs.uv?.getX(vertex), theirs.uv?.getY(vertex)], name);
+  assert.deepEqual(mine.skinWeight?.array, theirs.skinWeight?.array);
+}
+
+/** Compares the scene in a file with the GLB that the tool writes of it, in the neutral and in an expression. */
+async function compare(sweep) {
+  const {face, ...rest} = await load(readFileSync(sweep)), mine = meshesOf(rest), theirs = meshesOf(await exportedScene(sweep));
   assert.deepEqual([...mine.keys()], [...theirs.keys()]);
-  assert.deepEqual(face.names, ['jawOpen', 'smile', 'look']);
-  assert.deepEqual([...mine.values()].map(({material}) => material.name), ['lips', 'skin', 'skin', 'skin', 'felt']);
-  for (const weights of [{jawOpen: 0, smile: 0, look: 0}, {jawOpen: 0.8, smile: -0.3, look: 1}]) {
+  for (const far of [0, 0.8]) {
+    const weights = Object.fromEntries(face.names.map((name, k) => [name, far * (k % 2 ? -0.4 : 1)]));
     face.setWeights(weights);
     face.update();
     for (const [name, mesh] of mine) {
       const other = theirs.get(name);
-      for (const [target, k] of Object.entries(other.morphTargetDictionary ?? {})) other.morphTargetInfluences[k] = weights[target];
-      assert.ok(furthest(placesOf(mesh), placesOf(other)) < 0.004, `${name} ${furthest(placesOf(mesh), placesOf(other))}`);
-      assert.deepEqual(Object.keys(mesh.geometry.attributes).sort(), Object.keys(other.geometry.attributes).sort());
-      assert.equal(mesh.geometry.index.count, other.geometry.index.count);
-      const {uv, skinWeight} = other.geometry.attributes;
-      assert.deepEqual(mesh.geometry.attributes.uv.array, uv.array);
-      assert.deepEqual(mesh.geometry.attributes.skinWeight?.array, skinWeight?.array);
+      for (const [target, k] of Object.entries(other.morphTargetDictionary ?? {}))
+        other.morphTargetInfluences[k] = weights[target] ?? weights[face.names[k]];
+      assertShowsTheSame(mesh, other, name);
     }
   }
   face.reset();
   face.update();
   for (const [name, mesh] of mine) {
     const {normal} = mesh.geometry.attributes, other = theirs.get(name).geometry.attributes.normal;
-    for (let v = 0; v < normal.count; ++v) {
+    for (let v = 0; normal && v < normal.count; ++v) {
       const [a, b] = [normal, other].map((list) => new three.Vector3().fromBufferAttribute(list, v));
       assert.ok(a.angleTo(b) < 0.02, `${name} ${v}`);
     }
-    assert.ok(areaOf(mesh).angleTo(areaOf(theirs.get(name))) < 0.02, name);  // the mirrored eye's, too
   }
+  return {face, mine};
+}
+
+test('a scene has all that the file had, and the face stands where an exported one does', options, async () => {
+  const {face, mine} = await compare(file);
+  assert.deepEqual(face.names, ['jawOpen', 'smile', 'look']);
+  assert.deepEqual([...mine.values()].map(({material}) => material.name), ['lips', 'skin', 'skin', 'skin', 'felt']);
+});
+
+/** A model changed by `change`, as a file. */
+function changed(change, ...more) {
+  const made = model();
+  change(made.json, made);
+  return converted(made, ...more);
+}
+
+/** Makes the head four primitives of one set of vertices, with these materials. */
+const quartered = (materials) => (json) => {
+  const [{primitives: halves}] = json.meshes, {accessors} = json;
+  json.meshes[0].primitives = halves.flatMap((half) => [0, 1].map((later) => {
+    const {count, byteOffset = 0, ...all} = accessors[half.indices];
+    accessors.push({...all, count: count / 2, byteOffset: byteOffset + later * count});
+    return {...half, indices: accessors.length - 1};
+  })).map((primitive, k) => ({...primitive, material: materials[k]}));
+};
+
+test('primitives of the same vertices have the triangles of their own', options, async () => {
+  for (const materials of [[1, undefined, 0, 1], [0, 0, 0, 0], [2, 1, 0, 2]])
+    for (const more of [[], ['--strip', 'groups']]) await compare(changed(quartered(materials), ...more));
+});
+
+test('a face that was given other materials is refused', options, async () => {
+  const drawing = join(newFolder(), 'drawing.wire.json'), painted = join(newFolder(), 'painted.sweep');
+  execFileSync(tool, ['wireframe', file, '-o', drawing, '--quiet']);
+  const drawn = JSON.parse(readFileSync(drawing));
+  drawn.patches.forEach((patch, k) => patch.material = k % 3 ? 'lips' : 'skin');
+  writeFileSync(drawing, JSON.stringify(drawn));
+  execFileSync(tool, ['build', drawing, '--source', file, '-o', painted, '--quiet']);
+  await assert.rejects(load(readFileSync(painted)), {message: /^model\.sweep: the face has other materials than its scene; export it as a \.glb/});
+});
+
+test('texture coordinates are those of each primitive, also where they share vertices', options, async () => {
+  await compare(changed((json) => {
+    json.extensionsUsed = ['KHR_texture_transform'];
+    json.materials[1].pbrMetallicRoughness = {
+      baseColorTexture: {index: 0, extensions: {KHR_texture_transform: {scale: [3, 3]}}}
+    };
+  }));
+  await compare(changed((json) => {
+    json.extensionsUsed = ['EXT_counts_on_the_order'];  // so that triangles stay in the scene
+    json.meshes[0].primitives[0].extensions = {EXT_counts_on_the_order: {}};
+  }));
+  await compare(changed(() => {}, '--strip', 'uv'));
+});
+
+test('strips, fans and what has no indices are part of the face', options, async () => {
+  await compare(changed((json, builder) => {
+    const [head, eye, hat] = json.meshes.map(({primitives: [first]}) => first), {accessors} = json;
+    const take = (list) => builder.accessor(new Uint16Array(list), 1);
+    Object.assign(eye, {mode: 5, indices: take([0, 9, 1, 10, 2, 11, 2, 11, 12, 20, 21])});
+    Object.assign(head, {mode: 6, indices: take([14, 0, 1, 2, 15, 28, 27, 26, 13])});
+    hat.targets = [{POSITION: hat.attributes.POSITION}];
+    delete hat.indices;
+    for (const index of Object.values(hat.attributes)) accessors[index].count = 24;
+    json.meshes[2].extras = {targetNames: ['lift']};
+  }));
+});
+
+test('nodes place meshes as the tool has it: by matrices, one in another, those of a scene first', options, async () => {
+  const {face, mine} = await compare(changed((json) => {
+    const turned = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 2, 0, 0.5, 0, 0, 1];
+    json.nodes[3] = {name: 'eyeL', mesh: 1, matrix: turned};
+    json.nodes[4] = {name: 'eyeR', mesh: 1, scale: [1, 2, 3], translation: [-0.4, 0.3, 0.9]};
+    json.nodes.push({name: 'up', children: [3], scale: [1, 1, 2], rotation: [0.6, 0, 0, 0.8]});
+    json.nodes.push({name: 'top', children: [6], translation: [1, 2, 3]});
+    json.scenes[0].nodes = [0, 1, 7, 5];  // not the other eye
+    Object.assign(json.nodes[0], {scale: [-3, 1, 1], translation: [5, 5, 5]});  // which its skin ignores, but not that it mirrors
+    [json.nodes[4], json.nodes[3]] = [json.nodes[3], json.nodes[4]];
+    json.nodes[6].children = [4];
+    delete json.animations;
+  }));
+  assert.deepEqual([face.meshes.length, mine.size], [3, 4]);
+});
+
+test('parts without normals get none, and extras stay', options, async () => {
+  const {face} = await compare(changed((json) => {
+    delete json.meshes[1].primitives[0].attributes.NORMAL;
+    json.meshes[0].extras.maker = 'me';
+  }));
+  assert.equal(face.meshes[0].userData.maker, 'me');
 });
 
 test('a face is shown at first as the file shows it', options, async () => {
@@ -132,16 +234,19 @@ test("three.js's mixer plays the file's animations, of the skeleton and of the f
 });
 
 test('bounds are those of the expression', options, async () => {
-  const {face} = await load(), [lips] = face.meshes, {geometry} = lips;
-  const sphere = () => geometry.boundingSphere.clone(), wide = new three.Box3();
+  const {face, scene} = await load(), eye = face.meshes[3], {geometry} = eye, {position, normal} = geometry.attributes;
+  scene.updateMatrixWorld();
+  const lowest = () => Array.from({length: position.count}, (_, v) => new three.Vector3().fromBufferAttribute(position, v))
+      .reduce((a, b) => (b.x > a.x ? b : a)).clone();
   geometry.computeBoundingBox();
-  const before = sphere(), box = geometry.boundingBox.clone();
-  face.setWeights({jawOpen: 3});
+  const box = geometry.boundingBox.clone(), versions = [position.version, normal.version];
+  face.setWeights({look: 20});
   face.update();
-  assert.ok(sphere().radius > before.radius);
-  assert.ok(geometry.boundingBox.min.y < box.min.y);
-  wide.setFromBufferAttribute(geometry.attributes.position);
-  assert.deepEqual(geometry.boundingBox, wide);
+  assert.ok(position.version > versions[0] && normal.version > versions[1]);
+  assert.ok(geometry.boundingBox.max.x > box.max.x + 0.3);
+  assert.ok(geometry.boundingSphere.containsPoint(lowest()));
+  const from = lowest().add(new three.Vector3(-0.01, 0, 1)).applyMatrix4(eye.matrixWorld);
+  assert.ok(new three.Raycaster(from, new three.Vector3(0, 0, -1)).intersectObject(eye).length > 0);
 });
 
 test('a mesh whose geometry was replaced says so', options, async () => {
@@ -170,6 +275,54 @@ test('the options of faces count, except those that ask for other vertices', opt
   assert.ok((await load(bytes, {lod: 0})).face.meshes.length > 0);
   await assert.rejects(load(bytes, {mesh: three.Mesh}), /has no option 'mesh'/);
   await assert.rejects(load('model.sweep'), {message: /^Sweepface\.load needs the bytes/});
+  await assert.rejects(load(bytes, {gltfLoader: 5}), {message: "The option 'gltfLoader' is a GLTFLoader."});
+  await assert.rejects(load(bytes, {load: 5}), {message: "The option 'load' is a function: Sweepface.load or loadInWorker."});
+  for (const nothing of [{gltfLoader: null}, {name: null}, {name: 5}]) assert.ok((await load(bytes, nothing)).face);
+  const {SweepfaceSceneLoader} = await import('../sweepface_scene.js');
+  await assert.rejects(new SweepfaceSceneLoader().parseAsync(bytes, 'models/'), {message: /^parseAsync takes bytes and options, no path/});
+});
+
+test('the bytes may change while the scene is loading', options, async () => {
+  const {SweepfaceSceneLoader} = await import('../sweepface_scene.js'), {error} = console;
+  console.error = () => {};
+  const own = Buffer.from(bytes), loading = new SweepfaceSceneLoader().parseAsync(own).finally(() => console.error = error);
+  own.fill(0);
+  assert.equal((await loading).face.names.length, 3);
+});
+
+test('what GLTFLoader cannot show it says, with the name of the file', options, async () => {
+  const {Sweepface} = await import('../sweepface.js'), faces = [];
+  const remember = async (...given) => {
+    faces.push(await Sweepface.load(...given));
+    return faces.at(-1);
+  };
+  const basis = readFileSync(changed((json) => {
+    json.extensionsUsed = json.extensionsRequired = ['KHR_texture_basisu'];
+    json.textures[0] = {extensions: {KHR_texture_basisu: {source: 0}}};
+  }));
+  await assert.rejects(load(basis, {load: remember}), {message: /^model\.sweep: its scene cannot be shown: .*setKTX2Loader/});
+  assert.throws(() => faces[0].names, /disposed of/);
+});
+
+test('files beside the scene are looked for beside the file', options, async () => {
+  const {SweepfaceSceneLoader} = await import('../sweepface_scene.js'), {fetch} = globalThis, asked = [];
+  const apart = readFileSync(changed((json) => json.images[0] = {uri: 'skin.png'}));
+  const manager = new three.LoadingManager().setURLModifier((url) => {
+    if (url.endsWith('.png')) asked.push(url);
+    return url;
+  });
+  globalThis.fetch = async () => new Response(apart);
+  globalThis.ProgressEvent ??= Event;  // which Node lacks
+  try {
+    for (const [path, url] of [['http://a/models/', 'one.sweep'], ['', 'http://a/models/two.sweep?secret']]) {
+      const loader = new SweepfaceSceneLoader(manager, {name: 'Anna'}).setPath(path);
+      await inSilence(() => loader.loadAsync(url));
+    }
+    await inSilence(() => new SweepfaceSceneLoader(manager).setResourcePath('http://b/').loadAsync('http://a/three.sweep'));
+  } finally {
+    globalThis.fetch = fetch;
+  }
+  assert.deepEqual(asked, ['http://a/models/skin.png', 'http://a/models/skin.png', 'http://b/skin.png']);
 });
 
 test('what has no scene says so', options, async () => {
@@ -202,11 +355,24 @@ test('expressions that were taken out move nothing', options, async () => {
   assert.deepEqual(lips.morphTargetInfluences, [1, 1]);
 });
 
+test('names of targets may be those of a primitive', options, async () => {
+  const {face} = await load(readFileSync(changed((json) => {
+    json.meshes[1].primitives[0].extras = {targetNames: ['blink']};
+    json.meshes[0].primitives[0].extras = {targetNames: ['not', 'these']};
+    delete json.meshes[1].extras;
+  })));
+  assert.deepEqual(face.names, ['jawOpen', 'smile', 'blink']);
+  face.setWeights({blink: 1, smile: 0.5});
+  assert.deepEqual(face.meshes.map(({morphTargetInfluences}) => morphTargetInfluences), [[0.25, 0.5], [0.25, 0.5], [1], [1]]);
+});
+
 test('targets without names are called as the tool calls them', options, async () => {
-  const {binary, json} = model();
-  json.meshes[0].extras.targetNames = ['target_1', ' '];
-  delete json.meshes[1].extras;
-  const {face} = await load(readFileSync(converted({binary, json}))), [lips, , eye] = face.meshes;
+  const space = await load(readFileSync(changed((json) => json.meshes[0].extras.targetNames = ['\u3000', 'smile'])));
+  assert.deepEqual(space.face.weights, {'\u3000': 0.25, smile: 0, look: 0});  // a blank of this kind is a name
+  const {face} = await load(readFileSync(changed((json) => {
+    json.meshes[0].extras.targetNames = ['target_1', ' '];
+    delete json.meshes[1].extras;
+  }))), [lips, , eye] = face.meshes;
   assert.deepEqual(face.names, ['target_1', 'target_2', 'target_0']);
   face.setWeights({target_2: 0.5, target_0: 1});
   assert.deepEqual([lips.morphTargetInfluences, eye.morphTargetInfluences], [[0.25, 0.5], [1]]);
@@ -250,11 +416,15 @@ function withScene(text) {
 }
 
 test('a damaged scene says so, and its face is freed', {...options, timeout: 60_000}, async () => {
-  const numbers = (...list) => Buffer.from(Uint32Array.from(list).buffer), planes = (...parts) => [1, ...deflateSync(Buffer.concat(parts))];
+  const numbers = (...list) => Buffer.from(Uint32Array.from(list).buffer), planes = (...parts) => [1, ...deflateSync(Buffer.concat(parts.map((part) => Buffer.from(part))))];
   const glbOf = (json) => [...Buffer.from('glTF'), ...numbers(2, 20 + json.length, json.length, 0x4e4f534a), ...Buffer.from(json)];
-  const told = {message: 'model.sweep: its scene is damaged; convert the source again.'};
+  const told = {message: 'model.sweep: its scene is damaged; convert the source again.'}, glb = Buffer.from(glbOf('{"scenes": [{}]}  '));
+  const fine = planes(numbers(1, 0, 1, 4), [0], glb);  // as the others, without a fault
+  await assert.rejects(load(withScene(fine)), {message: /^model\.sweep: the face and its scene do not fit/});
   for (const text of [[], [120, 156, 1], [...deflateSync(Buffer.from('no GLB'))], [...deflateSync(Buffer.alloc(1e7))], planes(numbers(7)),
-                      planes(numbers(1, 0, 0xffffffff, 0)), planes(numbers(1, 9, 1, 1), Buffer.from([0, 1, 2])), [...Buffer.from('glTF and no more')],
+                      planes(numbers(1, 0, 0xffffffff, 0)), planes(numbers(1, 9, 1, 1), Buffer.from([0, 1, 2])),
+                      planes(numbers(1, 0, 1, 4), Buffer.from([2]), glb), planes(numbers(2, 4, 1, 4), [0], numbers(0, 1, 4), [0], glb),
+                      planes(numbers(1, 0, 1, glb.length + 1), [0], glb), [...Buffer.from('glTF and no more')],
                       glbOf('{"a"'), glbOf('{"meshes": [1], "scenes": [{}]}')])
     await assert.rejects(load(withScene(text)), told, String(text));
   const flipped = Buffer.from(bytes);
@@ -278,6 +448,26 @@ test('a browser that cannot decompress says so', options, async () => {
   } finally {
     globalThis.DecompressionStream = DecompressionStream;
   }
+});
+
+test('a scene with more or fewer triangles than its face is refused', options, async () => {
+  const text = inflateSync(sceneText(bytes).subarray(sceneText(bytes)[0] === 1 ? 1 : 0)).toString('latin1');
+  const {sceneJson} = await import('../sweepface_scene.js'), json = await sceneJson(bytes);
+  for (const more of [-3, 3]) {
+    const other = structuredClone(json), {indices} = other.meshes[0].primitives[1];
+    other.accessors[indices].count += more;
+    await assert.rejects(load(withScene([...new Uint8Array(formatGlb({json: other, binary: new Uint8Array(text.length)}))])),
+                         {message: 'model.sweep: the face and its scene do not fit; convert the source again.'});
+  }
+});
+
+test('nodes in long chains take no long time, and none go in circles', {...options, timeout: 20_000}, async () => {
+  const {partsOf} = await import('../sweepface_scene_parts.js'), count = 50_000;
+  const chain = Array.from({length: count}, (_, k) => (k + 1 < count ? {children: [k + 1]} : {mesh: 0, translation: [1, 2, 3]}));
+  const json = {nodes: chain, scenes: [{nodes: [0]}], accessors: [{count: 3}], meshes: [{primitives: [{attributes: {POSITION: 0}}]}]};
+  assert.deepEqual(partsOf(json).parts[0].run.world.elements.slice(12, 15), [1, 2, 3]);
+  for (const nodes of [[{children: [1]}, {children: [0]}], [{children: [2]}, {children: [2]}, {}], [{children: [0]}]])
+    assert.throws(() => partsOf({...json, nodes}), RangeError);
 });
 
 test('a scene of another face is refused', options, async () => {
@@ -339,6 +529,34 @@ test('a clone moves by itself, and shares what does not move', options, async ()
   assert.deepEqual(gone.map(({size}) => size), [3, 0]);  // the head's geometries and the eye's
   assert.equal(cloneScene(twin).face.weights.jawOpen, 0.5);
   assert.throws(() => cloneScene({face: three}), {message: /^cloneScene takes what a SweepfaceSceneLoader loaded/});
+});
+
+test('a clone has the weights of every region', options, async () => {
+  const {cloneScene} = await import('../sweepface_scene.js');
+  const model = await load(bytes, {regions: [{name: 'chin', points: [[0, -0.5, 0.8]], whole: 0.3, fade: 0.4}]});
+  model.face.setWeights({jawOpen: 1}, 'chin');
+  const twin = cloneScene(model).face;
+  assert.deepEqual([twin.weightsIn('rest').jawOpen, twin.weightsIn('chin').jawOpen], [0.25, 1]);
+});
+
+test('textures and skeletons are freed, of several scenes, too, but not what the application added', options, async () => {
+  const {cloneScene} = await import('../sweepface_scene.js');
+  const twoScenes = readFileSync(changed((json) => {
+    json.scenes.push({nodes: [5]});
+    json.scenes[0].nodes.pop();
+  }));
+  const model = await load(twoScenes), {face, scene, scenes} = model, {skeleton, material} = face.meshes[0], gone = [];
+  const hat = scenes[1].getObjectByName('hat'), added = new three.Mesh(new three.BufferGeometry(), new three.Material());
+  const map = material.map = new three.Texture(), late = cloneScene(model);
+  scene.add(added);
+  skeleton.computeBoneTexture();
+  for (const [name, each] of Object.entries({map, bones: skeleton.boneTexture, felt: hat.material, added: added.material}))
+    each.addEventListener('dispose', () => gone.push(name));
+  face.dispose();
+  assert.deepEqual(gone, ['bones']);
+  late.face.dispose();
+  late.face.dispose();
+  assert.deepEqual(gone.sort(), ['bones', 'felt']);  // the map came after the scene was loaded
 });
 
 test('what is shared goes with the last clone', options, async () => {

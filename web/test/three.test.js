@@ -65,6 +65,18 @@ test('what moves morph targets moves a mesh', options, async () => {
   assert.deepEqual(influences, mesh.names.map(() => 0));
 });
 
+test('a target may have any name', options, async () => {
+  const {SweepfaceMesh} = await import('../sweepface_three.js'), folder = newFolder(), file = join(folder, 'odd.sweep');
+  const [neutral, odd] = ['neutral.obj', '__proto__.obj'].map((name) => join(folder, name));
+  execFileSync(tool, ['export', sample, '-o', neutral, '--quiet']);
+  execFileSync(tool, ['export', sample, '-o', odd, '--weights', 'jawOpen=1', '--quiet']);
+  execFileSync(tool, ['convert', neutral, odd, '-o', file, '--tolerance', '0.5', '--quiet']);
+  const {Sweepface} = await import('../sweepface.js'), mesh = new SweepfaceMesh(await Sweepface.load(readFileSync(file)));
+  mesh.morphTargetInfluences[0] = 0.9;
+  mesh.update();
+  assert.deepEqual(mesh.face.weightValues, new Float64Array([0.9]));
+});
+
 test('forces set out from where the influences were set to', options, async () => {
   const mesh = await load(), {morphTargetInfluences: influences} = mesh, {jawOpen: k} = mesh.morphTargetDictionary;
   influences[k] = 0.5;
