@@ -51,5 +51,5 @@ export function cloneScene(model: {scene: Group; face: SceneFace; animations: An
 };
 
 /** The JSON of the glTF file that a face came with, without what the face itself holds; null if there is no scene in the
- * .sweep file, or a damaged one. */
+ * .sweep file. Rejects if it is damaged. */
 export function sceneJson(bytes: Bytes, name?: string): Promise<GLTF['parser']['json'] | null>;
