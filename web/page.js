@@ -96,7 +96,7 @@ function stand(mover, weights) {
 function offer(mayHaveScene) {
   const inScene = model.object !== mesh;
   at('choice').hidden = !mayHaveScene;
-  at('lod').disabled = at('lines').disabled = inScene;
+  at('lod').disabled = at('lines').disabled = at('lines').parentElement.hidden = inScene;
 }
 
 /** Runs an action, and reports its error if it fails. */

@@ -74,6 +74,7 @@ export async function loadAlone(bytes, options) {
 export async function loadScene(bytes, options) {
   const {scene: object, face: mover, parser} = await new SweepfaceSceneLoader().parseAsync(bytes, options);
   if (parser.json.extensions?.VRM) object.rotation.y = Math.PI;  // avatars of VRM 0 look along -z
+  object.traverse((each) => each.isLight && (each.visible = false));  // as the page has its own
   return {mover, object, meshes: mover.meshes};
 }
 

@@ -1,25 +1,30 @@
 // Makes clips for faces from animations of glTF files, as three.js's own loader reads them.
 import {AnimationClip, NumberKeyframeTrack, PropertyBinding} from 'three';
 
-/** Extracts one target's track from a track of `count` targets: a value per key, or three if it is a cubic spline. */
-function trackFor(name, track, place, count) {
+/**
+ * Extracts one target's track from a track of `count` targets: a value per key, or three if it is a cubic spline. `node`
+ * is the name of the mesh, or '' for that which the mixer is of.
+ */
+function trackFor(name, track, place, count, node = '') {
   const {times, values} = track, stride = track.getValueSize(), rows = stride / count;
   const own = Float32Array.from({length: rows * times.length}, (_, k) => {
     return values[Math.floor(k / rows) * stride + (k % rows) * count + place];
   });
-  const made = new NumberKeyframeTrack(`.morphTargetInfluences[${name}]`, times, own);
+  const made = new NumberKeyframeTrack(`${node}.morphTargetInfluences[${name}]`, times, own);
   made.createInterpolant = track.createInterpolant;  // steps, straight lines or splines
   return made;
 }
 
-/** The targets that a track moves, as [name, place], and how many targets it holds. */
+const moves = ({values}) => values.some((value) => value !== 0);
+
+/** The targets that a track moves, as [name, place], how many targets it holds, and the name of their mesh. */
 function targetsOf(track, scene) {
   const {nodeName, propertyName, propertyIndex: one} = PropertyBinding.parseTrackName(track.name);
   const mesh = propertyName === 'morphTargetInfluences' ? PropertyBinding.findNode(scene, nodeName) : undefined;
   const places = mesh?.morphTargetDictionary ?? {};
-  if (one === undefined) return {targets: Object.entries(places), count: mesh?.morphTargetInfluences?.length};
+  if (one === undefined) return {targets: Object.entries(places), count: mesh?.morphTargetInfluences?.length, nodeName};
   const name = one in places ? one : Object.keys(places).find((key) => String(places[key]) === one);
-  return {targets: name === undefined ? [] : [[name, 0]], count: 1};
+  return {targets: name === undefined ? [] : [[name, 0]], count: 1, nodeName};
 }
 
 /** Tracks for the targets of a face, or undefined if the animation has none for them. */
@@ -30,7 +35,7 @@ function tracksFor(face, scene, animation) {
     for (const [name, place] of targets)
       if (unmoved.delete(name)) tracks.push(trackFor(name, track, place, count));
   }
-  return tracks.length > 0 ? tracks.filter(({values}) => values.some((value) => value !== 0)) : undefined;
+  return tracks.length > 0 ? tracks.filter(moves) : undefined;
 }
 
 /**
@@ -45,4 +50,16 @@ export function animationFor(face, gltf, animation) {
     if (tracks) return new AnimationClip(each.name, each.duration, tracks);
   }
   throw new Error('The file has no animation of targets that the face has; they are matched by name.');
+}
+
+/**
+ * An animation in which every track of all targets of a mesh in the scene has made room for tracks of those that ever leave
+ * 0, so that the others can be moved meanwhile.
+ */
+export function apart(animation, scene) {
+  const tracks = animation.tracks.flatMap((track) => {
+    const {targets, count, nodeName} = targetsOf(track, scene);
+    return targets.length === 0 ? [track] : targets.map(([name, place]) => trackFor(name, track, place, count, nodeName)).filter(moves);
+  });
+  return new AnimationClip(animation.name, animation.duration, tracks);
 }

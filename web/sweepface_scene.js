@@ -1,6 +1,7 @@
 // Whole scenes for three.js: what a glTF file held when it was converted (skeletons, materials, textures, other meshes,
 // animations), with the face in it.
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+import {apart} from './sweepface_animation.js';
 import {damaged, formatGlb, sceneOf} from './sweepface_glb.js';
 import {SceneFace} from './sweepface_scene_face.js';
 import {fill, unfit, withoutShapes} from './sweepface_scene_fill.js';
@@ -87,7 +88,8 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
       const geometries = await geometriesOf(gltf, scene.parts);
       fill(scene.json, geometries, face, name);
       const parts = new Map([...geometries].map(([part, geometry]) => [geometry, part]));
-      return Object.assign(gltf, {face: new SceneFace(face, gltf.scenes, parts)});
+      const animations = gltf.animations.map((animation) => apart(animation, gltf.scene));
+      return Object.assign(gltf, {animations, face: new SceneFace(face, gltf.scenes, parts)});
     } catch (error) {
       face.dispose();
       throw error;
@@ -96,7 +98,7 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
 }
 
 /** Another model like one that was loaded, in the same pose, that moves by itself. They share materials and textures. */
-export function cloneScene({scene, face, animations}) {
+export function cloneScene({scene, face, animations} = {}) {
   if (!(face instanceof SceneFace)) throw new TypeError('cloneScene takes what a SweepfaceSceneLoader loaded.');
   return {...face.cloneIn(scene), animations};
 }

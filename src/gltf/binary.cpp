@@ -197,7 +197,7 @@ class Gatherer {
   void chooseViews() {
     std::size_t partly = 0, all = 0;
     for (const std::string& buffer : document_.buffers) all += buffer.size();
-    const bool mayBeNamed = mustKeepNumbers();
+    const bool mayBeNamed = usesUnknownExtensions(document_.json);
     for (std::size_t v = 0; v < views_.size(); ++v) {
       if (references_[v] == 0) {
         // Something unknown may still refer to it in its own way.
@@ -262,18 +262,10 @@ class Gatherer {
       holder["byteOffset"] = offset;
   }
 
-  /// Whether something unknown may refer to views by number.
-  bool mustKeepNumbers() const {
-    const Json* const used = find(document_.json, "extensionsUsed");
-    return used && std::ranges::any_of(*used, [](const Json& name) {
-             return !name.is_string() || !isHarmlessExtension(name.get_ref<const std::string&>());
-           });
-  }
-
   void rewriteViews() {
     Json* const old = find(document_.json, "bufferViews");
     if (!old) return;
-    const bool keepNumbers = mustKeepNumbers();
+    const bool keepNumbers = usesUnknownExtensions(document_.json);
     Json kept = Json::array();
     std::vector<std::size_t> numbers(views_.size());
     for (std::size_t v = 0; v < views_.size(); ++v) {

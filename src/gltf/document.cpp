@@ -291,6 +291,13 @@ bool isHarmlessExtension(std::string_view name) {
          std::ranges::find(names, name) != names.end();
 }
 
+bool usesUnknownExtensions(const Json& gltf) {
+  const Json* const used = find(gltf, "extensionsUsed");
+  return used && std::ranges::any_of(*used, [](const Json& name) {
+           return !name.is_string() || !isHarmlessExtension(name.get_ref<const std::string&>());
+         });
+}
+
 std::size_t Document::addBuffer(std::string bytes) {
   const std::size_t size = bytes.size(), buffer = buffers.size();
   views.push_back({buffer, 0, size, 0});

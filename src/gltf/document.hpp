@@ -56,6 +56,9 @@ inline constexpr std::string_view dracoRefusal =
 /// named "bufferView".
 bool isHarmlessExtension(std::string_view name);
 
+/// Whether something in a glTF that is not known may refer to views or accessors by number.
+bool usesUnknownExtensions(const Json& gltf);
+
 /// A name for every material: its own, or material_N if it has none, with a number appended if
 /// another one before it has that name.
 std::vector<std::string> materialNames(const Document& document);

@@ -101,7 +101,7 @@ std::string decodeMeshopt(Members& in, const MeshoptStream& s, std::string_view 
     in.refuse(fmt::format("it is compressed with version {} of meshopt, which this program does "
                           "not read",
                           bytes[0] & 15),
-              "decompress the file with `npx gltfpack -i IN.glb -o OUT.glb -noq`");
+              "decompress the file with `npx gltfpack -i IN.glb -o OUT.glb -noq -kn -km -ke`");
   in.refuse("what it holds compressed is damaged");
   return {};
 }

@@ -47,11 +47,19 @@ class Emptier {
     }
     for (std::size_t accessor : tangents_)
       if (!others_[accessor] && !claimed_.contains(accessor)) empty(accessor, floats);
+    if (!usesUnknownExtensions(document_.json)) emptyUnused();
   }
 
   const std::vector<bool>& touched() const { return touched_; }
 
  private:
+  /// Accessors that other programs left behind, such as those of targets that they took out.
+  void emptyUnused() {
+    const std::vector<std::size_t> uses = accessorUseCounts(document_);
+    for (std::size_t a = 0; a < uses.size(); ++a)
+      if (uses[a] == 0) empty(a, Json(accessors()[a]["componentType"]));
+  }
+
   static constexpr int floats = static_cast<int>(Component::float32);
 
   /// Their count is kept, as that of a list of triangles.

@@ -200,6 +200,19 @@ TEST(Scene, KeepsWhatIsUnknown) {
     EXPECT_EQ(scene.json[key].dump(), glb.json[key].dump()) << key;
 }
 
+TEST(Scene, LosesTheDataOfWhatNothingUses) {
+  for (const bool unknown : {false, true}) {
+    Glb glb = smallFace();
+    addHair(glb);
+    const std::size_t left = glb.addVectors({{1, 2, 3}, {4, 5, 6}});
+    if (unknown) glb.json["extensionsUsed"] = {"EXT_hair"};
+    const gltf::Document scene = sceneFrom(glb);
+    EXPECT_EQ(hasData(scene, left), unknown);
+    EXPECT_EQ(scene.json["accessors"][left]["count"], 2);
+    EXPECT_TRUE(hasData(scene, primitiveOf(scene, 1)["attributes"]["POSITION"]));
+  }
+}
+
 TEST(Scene, KeepsOtherMeshes) {
   Glb glb = smallFace();
   const std::size_t hair = addHair(glb);

@@ -233,6 +233,26 @@ test("three.js's mixer plays the file's animations, of the skeleton and of the f
   assert.equal(scene.getObjectByName('neck').position.y, -1.5);
 });
 
+test('an animation leaves the targets that it does not move to others', options, async () => {
+  const still = readFileSync(changed((json, builder) => {
+    const [{samplers}] = json.animations;
+    samplers[0].output = builder.accessor(new Float32Array([0.2, 0, 0.6, 0]), 1);
+    samplers.push({...samplers[0], interpolation: 'CUBICSPLINE', output: builder.accessor(new Float32Array([0, 0, 0, -1, 0, 0]), 1)});
+    json.animations[0].channels.push({sampler: 2, target: {node: 4, path: 'weights'}});
+  }));
+  const {face, scene, animations: [take]} = await load(still), mixer = new three.AnimationMixer(scene);
+  mixer.clipAction(take).play();
+  face.moveTo({smile: 1}, {kind: 'linear-force', seconds: 0.25});
+  for (let k = 0; k < 2; ++k) {
+    mixer.update(0.25);
+    face.update(0.25);
+  }
+  assert.ok(Math.abs(face.weights.jawOpen - 0.4) < 1e-6);
+  assert.equal(face.weights.smile, 1);
+  assert.ok(face.weights.look > 0.1);  // a cubic spline
+  assert.ok(take.tracks.some(({name}) => name.endsWith('.position')));
+});
+
 test('bounds are those of the expression', options, async () => {
   const {face, scene} = await load(), eye = face.meshes[3], {geometry} = eye, {position, normal} = geometry.attributes;
   scene.updateMatrixWorld();
@@ -528,6 +548,7 @@ test('a clone moves by itself, and shares what does not move', options, async ()
   face.dispose();
   assert.deepEqual(gone.map(({size}) => size), [3, 0]);  // the head's geometries and the eye's
   assert.equal(cloneScene(twin).face.weights.jawOpen, 0.5);
+  assert.throws(() => cloneScene(), {message: /^cloneScene takes/});
   assert.throws(() => cloneScene({face: three}), {message: /^cloneScene takes what a SweepfaceSceneLoader loaded/});
 });
 
