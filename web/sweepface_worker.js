@@ -49,11 +49,11 @@ function start() {
 export async function loadInWorker(given, givenOptions) {
   const {bytes} = take(given, givenOptions), options = ownOptions(givenOptions);
   if (!worker) start();
-  clearTimeout(ending);
   const number = ++count;
   const made = await new Promise((resolve, reject) => {
-    waiting.set(number, {resolve, reject});
     worker.postMessage({number, bytes, options: {...options, wasm: sourceOf(options.wasm)}}, [bytes.buffer]);
+    waiting.set(number, {resolve, reject});
+    clearTimeout(ending);
   });
   return new Sweepface(await Shared.taken(made));
 }
