@@ -47,18 +47,15 @@ function sceneChunk(bytes) {
     if (chunk.kind === 'scen') return crcOf(bytes, chunk) === chunk.sum ? chunk : undefined;
 }
 
-/** A copy of a file without its scene, which playing does not need and which may be most of it. A damaged one stays. */
-export function withoutScene(bytes) {
+/**
+ * Copies of a file without its scene, which playing does not need and which may be most of it, and of the text of that, if
+ * there is one. A damaged scene stays in the file.
+ */
+export function parted(bytes) {
   const chunk = sceneChunk(bytes);
-  if (!chunk) return bytes.slice();
-  const rest = new Uint8Array(bytes.length - (chunk.end - chunk.begin));
-  rest.set(bytes.subarray(0, chunk.begin));
-  rest.set(bytes.subarray(chunk.end), chunk.begin);
-  return rest;
-}
-
-/** The text of a file's scene, or undefined if it has none. */
-export function sceneText(bytes) {
-  const payload = sceneChunk(bytes)?.payload;
-  return payload?.subarray(payload.findIndex((byte) => byte < 128) + 1);  // after its length, a LEB128
+  if (!chunk) return {rest: bytes.slice()};
+  const {begin, end, payload} = chunk, rest = new Uint8Array(bytes.length - (end - begin));
+  rest.set(bytes.subarray(0, begin));
+  rest.set(bytes.subarray(end), begin);
+  return {rest, text: payload.slice(payload.findIndex((byte) => byte < 128) + 1)};  // after its length, a LEB128
 }

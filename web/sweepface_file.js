@@ -1,5 +1,5 @@
 // Opens a .sweep file in a module: the options, and what all faces of the file share.
-import {isPacked, isSweep, withoutScene} from './sweepface_chunks.js';
+import {isPacked, isSweep, parted} from './sweepface_chunks.js';
 import {divider} from './sweepface_regions.js';
 import {bytesOf, isGiven, known, told} from './sweepface_values.js';
 import {compile, instantiate, isCompiled, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
@@ -155,7 +155,7 @@ export function take(given, givenOptions) {
   const all = bytesOf(given);
   if (!all)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
-  const bytes = withoutScene(all), options = read(givenOptions);
+  const {rest: bytes} = parted(all), options = read(givenOptions);
   refuseOthers(bytes, options.name);
   return {bytes, options};
 }

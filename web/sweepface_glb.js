@@ -1,6 +1,4 @@
 // The scene that a face came with: a GLB without what the face itself holds (docs/glb.md).
-import {sceneText} from './sweepface_chunks.js';
-
 const JSON_CHUNK = 0x4e4f534a, BINARY_CHUNK = 0x004e4942;
 const isGlb = (bytes) => String.fromCharCode(...bytes.subarray(0, 4)) === 'glTF';
 const viewOf = (bytes) => new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -80,10 +78,8 @@ export function formatGlb({json, binary}) {
 /** What to throw about a scene that cannot be read. */
 export const damaged = (name, cause) => new Error(`${name}: its scene is damaged; convert the source again.`, {cause});
 
-/** The scene in a .sweep file as {json, binary}, or null if the file has none. */
-export async function sceneOf(bytes, name) {
-  const text = sceneText(bytes);
-  if (!text) return null;
+/** A scene as {json, binary}, from the text of a file's chunk. */
+export async function sceneFrom(text, name) {
   if (!globalThis.DecompressionStream)
     throw new Error(`${name}: its scene cannot be read here, where there is no DecompressionStream; use a newer browser.`);
   try {

@@ -2,7 +2,8 @@
 // animations), with the face in it.
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import {apart} from './sweepface_animation.js';
-import {damaged, formatGlb, sceneOf} from './sweepface_glb.js';
+import {parted} from './sweepface_chunks.js';
+import {damaged, formatGlb, sceneFrom} from './sweepface_glb.js';
 import {SceneFace} from './sweepface_scene_face.js';
 import {fill, unfit, withoutShapes} from './sweepface_scene_fill.js';
 import {partsOf} from './sweepface_scene_parts.js';
@@ -21,15 +22,16 @@ function checkDetail({lod, edgeLength, error, vertices}) {
 
 /** The JSON of the glTF file that a face came with, or null if there is no scene in the file. */
 export async function sceneJson(given, name = 'The face') {
-  const bytes = bytesOf(given)?.slice();  // as views of shared memory are not taken everywhere
+  const bytes = bytesOf(given);
   if (!bytes) throw new TypeError('sceneJson needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
-  return (await sceneOf(bytes, name))?.json ?? null;
+  const {text} = parted(bytes);
+  return text ? (await sceneFrom(text, name)).json : null;
 }
 
-/** The scene in a file: its JSON without shapes, its binary part, and which parts of it are the face. */
-async function read(bytes, name) {
-  const scene = await sceneOf(bytes, name);
-  if (!scene) throw new Error(`${name} ${NO_SCENE}`);
+/** The scene in a text: its JSON without shapes, its binary part, and which parts of it are the face. */
+async function read(text, name) {
+  if (!text) throw new Error(`${name} ${NO_SCENE}`);
+  const scene = await sceneFrom(text, name);
   if (!scene.json.scenes?.length)
     throw new Error(`${name}: its glTF file has nodes, but no scene of them; load the face alone by SweepfaceLoader.`);
   try {
@@ -78,11 +80,11 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
     const {load, others: {gltfLoader, ...others}} = settings(usual, options);
     if (isGiven(gltfLoader) && typeof gltfLoader.parseAsync !== 'function')
       throw new TypeError("The option 'gltfLoader' is a GLTFLoader.");
-    const name = others.name || 'The face', bytes = bytesOf(given)?.slice();  // the caller may change it meanwhile
+    const name = others.name || 'The face', bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
     checkDetail(others);
-    const face = await load(bytes, others);
+    const face = await load(rest, others);
     try {
-      const scene = await read(bytes, name);
+      const scene = await read(text, name);
       if (scene.vertices !== face.pointCount) throw unfit(name);
       const gltf = await parse(scene, gltfLoader ?? this.#gltfLoader(), this.resourcePath || folder, name);
       const geometries = await geometriesOf(gltf, scene.parts);
