@@ -2,7 +2,7 @@
 import {BufferAttribute, DynamicDrawUsage, Matrix3, Matrix4, Sphere} from 'three';
 import * as SkeletonUtils from 'three/addons/utils/SkeletonUtils.js';
 import {FaceGeometry, faceGeometryOf} from './sweepface_geometry.js';
-import {begin, movedByWeights, release, show, takeInfluences} from './sweepface_moved.js';
+import {begin, isGone, movedByWeights, release, show, takeInfluences} from './sweepface_moved.js';
 import {bound} from './sweepface_three.js';
 import {twinOf} from './sweepface_twin.js';
 
@@ -109,10 +109,17 @@ export class SceneFace extends movedByWeights(Object) {
   /** The meshes that show the face; nodes may share a geometry. */
   get meshes() { return [...this.#meshes]; }
 
-  [show]() {
-    const other = this.#meshes.find(({geometry}) => !this.#parts.has(geometry));
+  update(seconds) {
+    const other = this[isGone] ? undefined : this.#meshes.find(({geometry, morphTargetInfluences: influences}) => {
+      const part = this.#parts.get(geometry);
+      return !part || (influences && influences.length !== part.names.length);
+    });
     if (other)
-      throw new Error(`The mesh '${other.name}' must keep the geometry that it was loaded with, whose vertices follow the face.`);
+      throw new Error(`The mesh '${other.name}' must keep the geometry and influences that it was loaded with, which follow the face.`);
+    return super.update(seconds);
+  }
+
+  [show]() {
     this.face.evaluate(this.#arrays.positions, this.#arrays.normals);
     for (const run of this.#runs.values()) run.update();
     for (const geometry of this.#parts.keys()) if (geometry.boundingBox) geometry.computeBoundingBox();

@@ -269,11 +269,14 @@ test('bounds are those of the expression', options, async () => {
   assert.ok(new three.Raycaster(from, new three.Vector3(0, 0, -1)).intersectObject(eye).length > 0);
 });
 
-test('a mesh whose geometry was replaced says so', options, async () => {
-  const {face} = await load(), [lips] = face.meshes;
-  lips.geometry = lips.geometry.clone();
-  face.setWeights({smile: 1});
-  assert.throws(() => face.update(), {message: /^The mesh 'head_1' must keep the geometry/});
+test('a mesh whose geometry or influences were replaced says so', options, async () => {
+  for (const replace of [(mesh) => mesh.geometry = mesh.geometry.clone(), (mesh) => mesh.morphTargetInfluences = [0]]) {
+    const {face} = await load();
+    replace(face.meshes[0]);
+    assert.throws(() => face.update(), {message: /^The mesh 'head_1' must keep the geometry and influences/});
+    face.dispose();
+    assert.equal(face.update(), false);
+  }
 });
 
 test('a loader may have plugins of its own', options, async () => {
