@@ -39,8 +39,8 @@ function tracksFor(face, scene, animation) {
 }
 
 /**
- * Makes a clip for a face from an animation of a glTF file, by default the first that has tracks for any of its targets. It has
- * a track for each target of the face that ever leaves 0. Of several tracks for a target the first counts.
+ * Makes a clip for a face from an animation of a glTF file, by default the first that has tracks for any of its targets. It
+ * has a track for each target of the face that ever leaves 0. Of several tracks for a target the first counts.
  */
 export function animationFor(face, gltf, animation) {
   if (!Array.isArray(face?.names) || !Array.isArray(gltf?.animations))
@@ -59,7 +59,8 @@ export function animationFor(face, gltf, animation) {
 export function apart(animation, scene) {
   const tracks = animation.tracks.flatMap((track) => {
     const {targets, count, nodeName} = targetsOf(track, scene);
-    return targets.length === 0 ? [track] : targets.map(([name, place]) => trackFor(name, track, place, count, nodeName)).filter(moves);
+    if (targets.length === 0) return track;
+    return targets.map(([name, place]) => trackFor(name, track, place, count, nodeName)).filter(moves);
   });
   return new AnimationClip(animation.name, animation.duration, tracks);
 }

@@ -3,8 +3,9 @@ import {isWeight} from './sweepface_values.js';
 
 /**
  * What a class defines for itself: `show` brings weights to the screen, `follow` handles other changes, `release` frees
- * what it holds besides the face. And what it may use: `begin` takes the face and the meshes whose influences move it, `takeInfluences` sets weights from these.
- * `expression` is an object that identifies the current expression, `shown` the one that is on show.
+ * what it holds besides the face. And what it may use: `begin` takes the face and the meshes whose influences move it,
+ * `takeInfluences` sets weights from these. `expression` is an object that identifies the current expression, `shown` the
+ * one that is on show. `isGone` is true once it is disposed of.
  */
 export const show = Symbol('show'), follow = Symbol('follow'), begin = Symbol('begin');
 export const takeInfluences = Symbol('takeInfluences'), expression = Symbol('expression'), shown = Symbol('shown');

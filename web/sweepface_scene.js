@@ -17,7 +17,8 @@ const NO_SCENE = 'holds no scene, as it was made from a mesh without one or with
 /** Throws if an option asks for other vertices than the source's, which the scene goes with. */
 function checkDetail({lod, edgeLength, error, vertices}) {
   if (lod || [edgeLength, error, vertices].some((budget) => budget !== undefined))
-    throw new TypeError('The meshes of a scene have the vertices of their source; leave out lod, edgeLength, error and vertices.');
+    throw new TypeError('The meshes of a scene have the vertices of their source; ' +
+                        'leave out lod, edgeLength, error and vertices.');
 }
 
 /** The JSON of the glTF file that a face came with, or null if there is no scene in the file. */
@@ -69,7 +70,8 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
   /** A loader for the scene, where none is given. */
   #gltfLoader() {
     const {manager, crossOrigin, requestHeader, withCredentials} = this;
-    return new GLTFLoader(manager).setCrossOrigin(crossOrigin).setRequestHeader(requestHeader).setWithCredentials(withCredentials);
+    return new GLTFLoader(manager).setCrossOrigin(crossOrigin).setRequestHeader(requestHeader)
+        .setWithCredentials(withCredentials);
   }
 
   /**

@@ -15,9 +15,9 @@ class Run {
   bounds = new Sphere();
 
   constructor({first, count, world}, {positions, normals}) {
-    const attribute = (all) => new BufferAttribute(all.subarray(3 * first, 3 * (first + count)), 3).setUsage(DynamicDrawUsage);
-    this.position = attribute(positions);
-    this.normal = attribute(normals);
+    const own = (all) => new BufferAttribute(all.subarray(3 * first, 3 * (first + count)), 3).setUsage(DynamicDrawUsage);
+    this.position = own(positions);
+    this.normal = own(normals);
     if (world.equals(new Matrix4())) return;
     const points = world.clone().invert();
     this.#toMesh = {points, normals: new Matrix3().getNormalMatrix(points)};
@@ -115,7 +115,8 @@ export class SceneFace extends movedByWeights(Object) {
       return !part || (influences && influences.length !== part.names.length);
     });
     if (other)
-      throw new Error(`The mesh '${other.name}' must keep the geometry and influences that it was loaded with, which follow the face.`);
+      throw new Error(`The mesh '${other.name}' must keep the geometry and influences that it was loaded with, ` +
+                      'which follow the face.');
     return super.update(seconds);
   }
 

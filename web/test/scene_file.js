@@ -104,8 +104,10 @@ export function model(imageBytes = 0) {
       scene: 0, scenes: [{nodes: [0, 1, 3, 4, 5]}],
       nodes: [
         {name: 'head', mesh: 0, skin: 0}, {name: 'body', translation: [0, 0, 0], children: [2]},
-        {name: 'neck', translation: [0, -1, 0]}, {name: 'eyeL', mesh: 1, scale: [-2, 2, 2], translation: [0.4, 0.3, 0.9], rotation: [0, 0.6, 0, 0.8]},
-        {name: 'eyeR', mesh: 1, scale: [2, 2, 2], translation: [-0.4, 0.3, 0.9], weights: [0]}, {name: 'hat', mesh: 2, translation: [0, 1, 0]}
+        {name: 'neck', translation: [0, -1, 0]},
+        {name: 'eyeL', mesh: 1, scale: [-2, 2, 2], translation: [0.4, 0.3, 0.9], rotation: [0, 0.6, 0, 0.8]},
+        {name: 'eyeR', mesh: 1, scale: [2, 2, 2], translation: [-0.4, 0.3, 0.9], weights: [0]},
+        {name: 'hat', mesh: 2, translation: [0, 1, 0]}
       ],
       meshes: [
         {name: 'head', primitives, extras: {targetNames: ['jawOpen', 'smile']}, weights: [0.25, 0]},
@@ -114,10 +116,12 @@ export function model(imageBytes = 0) {
         {name: 'hat', primitives: [{attributes: attributes(hat), indices: indices(hat.quads), material: 2}]}
       ],
       skins: [{joints: [1, 2], inverseBindMatrices: b.accessor(still, 16)}],
-      materials: [{name: 'skin', pbrMetallicRoughness: {baseColorTexture: {index: 0}, metallicFactor: 0}}, {name: 'lips'}, {name: 'felt'}],
+      materials: [{name: 'skin', pbrMetallicRoughness: {baseColorTexture: {index: 0}, metallicFactor: 0}}, {name: 'lips'},
+                  {name: 'felt'}],
       textures: [{source: 0}], images: images.map((bytes) => ({bufferView: b.view(bytes), mimeType: 'image/png'})),
       animations: [{
-        name: 'take', channels: [{sampler: 0, target: {node: 0, path: 'weights'}}, {sampler: 1, target: {node: 2, path: 'translation'}}],
+        name: 'take',
+        channels: [{sampler: 0, target: {node: 0, path: 'weights'}}, {sampler: 1, target: {node: 2, path: 'translation'}}],
         samplers: [{input: times, output: b.accessor(new Float32Array([0, 0, 1, 0.5]), 1)},
                    {input: times, output: b.accessor(new Float32Array([0, -1, 0, 0, -2, 0]), 3)}]
       }]
@@ -129,6 +133,7 @@ export function model(imageBytes = 0) {
 export function converted({json, binary}, ...options) {
   const folder = newFolder(), glb = join(folder, 'model.glb'), file = join(folder, 'model.sweep');
   writeFileSync(glb, new Uint8Array(formatGlb({json, binary})));
-  execFileSync(tool, ['convert', glb, '-o', file, '--tolerance', '0.002', '--pack', '--quiet', ...options], {stdio: ['ignore', 'ignore', 'pipe']});
+  const all = ['convert', glb, '-o', file, '--tolerance', '0.002', '--pack', '--quiet', ...options];
+  execFileSync(tool, all, {stdio: ['ignore', 'ignore', 'pipe']});
   return file;
 }

@@ -22,8 +22,10 @@ const blank = `<!doctype html><link rel="icon" href="data:,">
       const positions = new Float32Array(3 * face.vertexCount), normals = positions.slice();
       face.evaluate(positions, normals);
       const {names, lod, tolerance, turnCount, pointCount, regions, eyeCount, weights} = face;
-      const bytes = [positions, normals, face.triangles, face.texcoords ?? [], face.copies].map((list) => new Uint8Array(list.buffer ?? 0));
-      const sums = await Promise.all(bytes.map(async (list) => String(new Uint8Array(await crypto.subtle.digest('SHA-256', list)))));
+      const arrays = [positions, normals, face.triangles, face.texcoords ?? new Float32Array(), face.copies];
+      const sums = await Promise.all(arrays.map(async ({buffer}) => {
+        return String(new Uint8Array(await crypto.subtle.digest('SHA-256', buffer)));
+      }));
       return {names, lod, tolerance, turnCount, pointCount, regions, eyeCount, weights, parts: face.parts, sums};
     }
     const bytesOf = async (name) => (await fetch(name)).arrayBuffer();
@@ -42,8 +44,9 @@ const visit = (more, use) => withPage('blank.html', {files: {...files(), ...more
 
 test('a worker loads what Sweepface.load loads, and says what that says', options, () => visit({}, async (page, complaints) => {
   const regions = [{name: 'chin', points: [[0, -8, 8]], whole: 3, fade: 4, mass: 2}];
-  for (const [name, settings] of [['packed.sweep', {}], ['packed.sweep', {lod: 2}], ['packed.sweep', {regions}], ['sample.sweep', {eyes: true}],
-                                  ['packed.sweep', {vertices: 3000}], ['packed.sweep', {wasm: 'sweepface_full.wasm'}], ['model.sweep', {}]]) {
+  for (const [name, settings] of [['packed.sweep', {}], ['packed.sweep', {lod: 2}], ['packed.sweep', {regions}],
+                                  ['sample.sweep', {eyes: true}], ['packed.sweep', {vertices: 3000}],
+                                  ['packed.sweep', {wasm: 'sweepface_full.wasm'}], ['model.sweep', {}]]) {
     const [mine, usual] = await page.evaluate(async ([name, settings]) => {
       const {bytesOf, digest, loadInWorker, Sweepface} = globalThis, bytes = await bytesOf(name);
       const face = await loadInWorker(bytes, settings);
@@ -51,8 +54,8 @@ test('a worker loads what Sweepface.load loads, and says what that says', option
     }, [name, settings]);
     assert.deepEqual(mine, usual, `${name} ${JSON.stringify(settings)}`);
   }
-  for (const [name, settings] of [['broken.sweep', {name: 'broken.sweep'}], ['packed.sweep', {lod: -1}], ['packed.sweep', {light: 1}],
-                                  ['packed.sweep', {wasm: 'nowhere.wasm'}], ['blank.html', {}],
+  for (const [name, settings] of [['broken.sweep', {name: 'broken.sweep'}], ['packed.sweep', {lod: -1}],
+                                  ['packed.sweep', {light: 1}], ['packed.sweep', {wasm: 'nowhere.wasm'}], ['blank.html', {}],
                                   ['packed.sweep', {regions: [{name: 'chin', curves: ['nose']}]}]]) {
     const [mine, usual] = await page.evaluate(async ([name, settings]) => {
       const {bytesOf, loadInWorker, Sweepface} = globalThis, bytes = await bytesOf(name);
@@ -92,14 +95,17 @@ test('loaders of three.js load in a worker', options, () => visit({}, async (pag
 
 test('a worker ends when it has had no work for a while', options, () => visit({}, async (page) => {
   await page.clock.install();
-  const load = () => page.evaluate(async () => (await globalThis.loadInWorker(await globalThis.bytesOf('packed.sweep'))).names.length);
+  const load = () => page.evaluate(async () => {
+    return (await globalThis.loadInWorker(await globalThis.bytesOf('packed.sweep'))).names.length;
+  });
   assert.equal(await load(), 2);
   await page.clock.runFor(9_000);
   assert.equal(await load(), 2);
   await page.clock.runFor(9_000);
   assert.equal(page.workers().length, 1);
   await page.clock.runFor(2_000);
-  for (let tries = 0; page.workers().length > 0 && tries < 100; ++tries) await new Promise((done) => { setTimeout(done, 50); });
+  for (let tries = 0; page.workers().length > 0 && tries < 100; ++tries)
+    await new Promise((done) => { setTimeout(done, 50); });
   assert.equal(page.workers().length, 0);
   assert.equal(await load(), 2);  // in a new one
 }));
