@@ -22,10 +22,10 @@ const CRC_TABLE = Uint32Array.from({length: 256}, (_, byte) => {
   return byte;
 });
 
-/** The CRC-32 of a chunk, which is that of its kind and payload. */
-function crcOf(bytes, {begin, payload}) {
+/** The CRC-32 of bytes in several parts, as in zip and PNG. */
+export function crc32(...parts) {
   let crc = -1;
-  for (const part of [bytes.subarray(begin, begin + 4), payload])
+  for (const part of parts)
     for (let k = 0; k < part.length; ++k) crc = CRC_TABLE[(crc ^ part[k]) & 255] ^ (crc >>> 8);
   return ~crc >>> 0;
 }
@@ -41,10 +41,12 @@ export function isPacked(bytes) {
   return true;
 }
 
+const KIND_OF_SCENES = new TextEncoder().encode('scen');
+
 /** The chunk of the scene, if it is whole. */
 function sceneChunk(bytes) {
   for (const chunk of chunksOf(bytes))
-    if (chunk.kind === 'scen') return crcOf(bytes, chunk) === chunk.sum ? chunk : undefined;
+    if (chunk.kind === 'scen') return crc32(KIND_OF_SCENES, chunk.payload) === chunk.sum ? chunk : undefined;
 }
 
 /**

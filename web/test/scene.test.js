@@ -4,7 +4,7 @@ import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 import {deflateSync, inflateSync} from 'node:zlib';
-import {parted} from '../sweepface_chunks.js';
+import {crc32, parted} from '../sweepface_chunks.js';
 import {formatGlb} from '../sweepface_glb.js';
 import {skip, withPage} from './browser.js';
 import {newFolder, tool} from './native.js';
@@ -432,14 +432,9 @@ function withScene(text) {
   for (let left = text.length; length.length === 0 || left > 0; left = Math.floor(left / 128))
     length.push(left % 128 + (left > 127 ? 128 : 0));
   const body = Buffer.from([...Buffer.from('scen'), ...length, ...text]), head = Buffer.alloc(12);
-  let crc = -1;
-  for (const byte of body) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; ++bit) crc = crc & 1 ? (crc >>> 1) ^ 0xedb88320 : crc >>> 1;
-  }
   head.write('scen');
   head.writeUInt32LE(body.length - 4, 4);
-  head.writeInt32LE(~crc, 8);
+  head.writeUInt32LE(crc32(body), 8);
   return Buffer.concat([bytes.subarray(0, at), head, body.subarray(4), bytes.subarray(end)]);
 }
 

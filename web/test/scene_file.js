@@ -4,6 +4,7 @@ import {execFileSync} from 'node:child_process';
 import {writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {deflateSync} from 'node:zlib';
+import {crc32} from '../sweepface_chunks.js';
 import {formatGlb} from '../sweepface_glb.js';
 import {newFolder, tool} from './native.js';
 
@@ -65,14 +66,9 @@ function pixel(...rgb) {
     const body = Buffer.from([...Buffer.from(kind), ...bytes]), out = Buffer.alloc(body.length + 8);
     out.writeUInt32BE(bytes.length);
     body.copy(out, 4);
-    out.writeInt32BE(crc(body), body.length + 4);
+    out.writeUInt32BE(crc32(body), body.length + 4);
     return out;
   };
-  const crc = (bytes) => ~bytes.reduce((sum, byte) => {
-    sum ^= byte;
-    for (let bit = 0; bit < 8; ++bit) sum = sum & 1 ? (sum >>> 1) ^ 0xedb88320 : sum >>> 1;
-    return sum;
-  }, -1);
   const header = [0, 0, 0, 1, 0, 0, 0, 1, 8, 2, 0, 0, 0];
   return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), chunk('IHDR', ...header),
                         chunk('IDAT', ...deflateSync(Buffer.from([0, ...rgb]))), chunk('IEND')]);
