@@ -14,6 +14,7 @@ import {assertTellsWhetherToDraw} from './updates.js';
 const three = await import('three').catch(() => undefined);
 const options = {skip: three ? false : 'three is not installed; try npm ci'};
 globalThis.self ??= globalThis;  // as GLTFLoader expects it
+globalThis.ProgressEvent ??= Event;  // as FileLoader does
 
 const file = three && converted(model()), bytes = three && readFileSync(file);
 
@@ -339,7 +340,6 @@ test('files beside the scene are looked for beside the file', options, async () 
     return url;
   });
   globalThis.fetch = async () => new Response(apart);
-  globalThis.ProgressEvent ??= Event;  // which Node lacks
   try {
     for (const [path, url] of [['http://a/models/', 'one.sweep'], ['', 'http://a/models/two.sweep?secret']]) {
       const loader = new SweepfaceSceneLoader(manager, {name: 'Anna'}).setPath(path);
@@ -350,6 +350,22 @@ test('files beside the scene are looked for beside the file', options, async () 
     globalThis.fetch = fetch;
   }
   assert.deepEqual(asked, ['http://a/models/skin.png', 'http://a/models/skin.png', 'http://b/skin.png']);
+});
+
+test('a loader that is aborted hands over no scene, and frees it', options, async () => {
+  const {SweepfaceSceneLoader} = await import('../sweepface_scene.js'), {Sweepface} = await import('../sweepface.js');
+  const {fetch} = globalThis, faces = [], loader = new SweepfaceSceneLoader(undefined, {load: async (...given) => {
+    faces.push(await Sweepface.load(...given));
+    loader.abort();  // when the bytes are there
+    return faces[0];
+  }});
+  globalThis.fetch = async () => new Response(bytes);
+  try {
+    await inSilence(() => assert.rejects(loader.loadAsync('http://a/model.sweep'), {name: 'AbortError'}));
+  } finally {
+    globalThis.fetch = fetch;
+  }
+  assert.throws(() => faces[0].names, /disposed of/);
 });
 
 test('what has no scene says so', options, async () => {
