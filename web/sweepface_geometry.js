@@ -66,11 +66,23 @@ export class FaceGeometry extends BufferGeometry {
   }
 }
 
-/** The geometry of a face with what another holds; `changing` attributes are to follow the weights. */
-export function faceGeometryOf({name, userData, index, attributes, groups, drawRange}, changing) {
+/**
+ * The geometry of a face with what another holds, its attributes replaced by those of `own` that it has or that are the
+ * face's alone; `changing` ones are to follow the weights.
+ */
+export function faceGeometryOf({name, userData, index, attributes, groups, drawRange}, own, changing) {
   const geometry = Object.assign(new FaceGeometry(), {name, userData, groups, drawRange}).setIndex(index);
-  for (const [key, attribute] of Object.entries(attributes)) geometry.setAttribute(key, attribute);
+  const {normal, ...others} = own, all = {...attributes, ...others, ...(attributes.normal && {normal})};
+  for (const [key, attribute] of Object.entries(all)) geometry.setAttribute(key, attribute);
   return geometry.fix(changing);
+}
+
+/** Another geometry like one that follows a face, for attributes of another in the place of `changing` ones. */
+export function twinGeometry(original, own, changing) {
+  const geometry = new FaceGeometry().fix(changing);
+  geometry.take(original);
+  for (const key of changing) if (original.attributes[key]) geometry.setAttribute(key, own[key]);
+  return geometry;
 }
 
 /**

@@ -1,7 +1,8 @@
 // .sweep faces evaluated in a vertex shader: a mesh for three.js, and the shader for other engines. Every frame only
 // the modes of the weights are uploaded, less than a tenth of a megabyte (docs/evaluation.md).
 import {GLSL3, MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking, RGBAIntegerFormat, ShortType} from 'three';
-import {CardMesh, check, complain, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
+import {CardMesh} from './sweepface_card.js';
+import {card, complain, refuse} from './sweepface_followers.js';
 
 /** GLSL ES 3 that moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
 export const SWEEPFACE_GLSL = `
@@ -37,50 +38,61 @@ export const SWEEPFACE_GLSL = `
 
 const INTEGERS = {Data: Int16Array, perTexel: 4, format: RGBAIntegerFormat, type: ShortType, internalFormat: 'RGBA16I'};
 
-/** A face in a scene that follows its weights without its vertices leaving the graphics card. */
-export class SweepfaceGpuMesh extends CardMesh {
-  constructor(face, materials) {
-    super(face, materials, INTEGERS);
-    this.customDepthMaterial = new MeshDepthMaterial({depthPacking: RGBADepthPacking});  // for shadows
-    this.customDistanceMaterial = new MeshDistanceMaterial();
-    this.update();
-  }
+/** How materials of WebGLRenderer follow a face. */
+const BY_CHUNKS = {
+  integers: INTEGERS,
+  names: ['onBeforeCompile', 'customProgramCacheKey'],
 
-  onBeforeRender(renderer) {
-    if (renderer.isRenderer) complain('SweepfaceGpuMesh', 'WebGPURenderer', 'SweepfaceNodeMesh');
-  }
-
-  [check](material) {
+  check(material) {
     if (!material.isShaderMaterial) return;
     if (!material.vertexShader.includes('#include <begin_vertex>'))
       refuse(material, 'has no `#include <begin_vertex>` in its vertex shader, to follow the face by; have it, and use `transformed`');
     if (material.isRawShaderMaterial && material.glslVersion !== GLSL3)
       refuse(material, 'is written in GLSL ES 1, which reads no face; set its glslVersion to GLSL3');
-  }
+  },
 
-  get [hookNames]() { return ['onBeforeCompile', 'customProgramCacheKey']; }
-
-  [hooksFor](material) {
-    const {onBeforeCompile, customProgramCacheKey} = material, own = this[textures];
+  hooks(material, {textures, linear, upright}) {
+    const {onBeforeCompile, customProgramCacheKey} = material;
     return {
       customProgramCacheKey: () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material),
       onBeforeCompile(shader, renderer) {
         onBeforeCompile.call(material, shader, renderer);
-        const {basis, modes} = own, factor = {get value() { return own.factor; }};
-        Object.assign(shader.uniforms, {sweepBasis: {value: basis}, sweepModes: {value: modes}, sweepFactor: factor});
+        Object.assign(shader.uniforms, {
+          sweepBasis: {value: textures.basis}, sweepModes: {value: textures.modes},
+          sweepFactor: {get value() { return textures.factor; }},
+          sweepLinear: {value: linear}, sweepUpright: {value: upright}
+        });
         shader.vertexShader = `
           uniform highp isampler2D sweepBasis, sweepModes;
           uniform float sweepFactor;
-          in uvec3 sweepPlace, sweepTangentPlace;
-          in vec3 sweepAlong, sweepAcross;
+          uniform mat3 sweepLinear, sweepUpright;
+          in uvec3 sweepPlace, sweepTangentPlace, sweepAlong, sweepAcross;
           ${SWEEPFACE_GLSL}
           ` + shader.vertexShader
           .replace('#include <beginnormal_vertex>', `$&
-            objectNormal = sweepfaceNormal(
-              sweepAlong, sweepAcross, sweepTangentPlace, sweepBasis, sweepModes, sweepFactor);`)
+            objectNormal = sweepfaceUnit(sweepUpright * sweepfaceNormal(
+              uintBitsToFloat(sweepAlong), uintBitsToFloat(sweepAcross), sweepTangentPlace, sweepBasis, sweepModes,
+              sweepFactor));`)
           .replace('#include <begin_vertex>', `$&
-            transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
+            transformed = position + sweepLinear * sweepfacePosition(
+              vec3(0.0), sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
       }
     };
+  },
+
+  shadows: () => ({
+    customDepthMaterial: new MeshDepthMaterial({depthPacking: RGBADepthPacking}),
+    customDistanceMaterial: new MeshDistanceMaterial()
+  }),
+
+  drawn() {},
+
+  meet(renderer) {
+    if (renderer.isRenderer) complain('SweepfaceGpuMesh', 'WebGPURenderer', 'SweepfaceNodeMesh');
   }
+};
+
+/** A face in a scene that follows its weights without its vertices leaving the graphics card. */
+export class SweepfaceGpuMesh extends CardMesh {
+  static get [card]() { return BY_CHUNKS; }
 }

@@ -1,6 +1,7 @@
 import type {AnimationClip, Group, Loader, LoadingManager, Mesh} from 'three';
 import type {GLTF, GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import type {Bytes, LoadOptions, Moved, Sweepface} from './sweepface.js';
+import type {FaceMesh} from './sweepface_mesh.js';
 
 export interface SceneFace extends Moved {}
 
@@ -31,6 +32,8 @@ export interface SweepfaceScene extends GLTF {
 export interface SceneOptions extends Omit<LoadOptions, 'lod' | 'edgeLength' | 'error' | 'vertices'> {
   /** A loader of your own, with the decoders and plugins that the scene needs. */
   gltfLoader?: GLTFLoader | undefined;
+  /** Where vertices are evaluated: as those of a SweepfaceMesh unless given, or of a SweepfaceGpuMesh, SweepfaceNodeMesh. */
+  mesh?: (new (face: Sweepface) => FaceMesh) | undefined;
   /** Loads faces: Sweepface.load unless given, or loadInWorker of sweepface/worker. */
   load?: typeof Sweepface.load | undefined;
 }

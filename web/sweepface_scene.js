@@ -3,11 +3,12 @@
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import {apart} from './sweepface_animation.js';
 import {parted} from './sweepface_chunks.js';
+import {card} from './sweepface_followers.js';
 import {damaged, formatGlb, sceneFrom} from './sweepface_glb.js';
 import {SceneFace} from './sweepface_scene_face.js';
 import {fill, unfit, withoutShapes} from './sweepface_scene_fill.js';
 import {partsOf} from './sweepface_scene_parts.js';
-import {settings, SweepfaceLoader} from './sweepface_three.js';
+import {meshFrom, settings, SweepfaceLoader} from './sweepface_three.js';
 import {bytesOf, isGiven} from './sweepface_values.js';
 
 export {SceneFace};
@@ -75,14 +76,14 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
   }
 
   /**
-   * `options` are those of Sweepface.load, `gltfLoader`, a GLTFLoader that has decoders or plugins of its own, and `load`,
-   * loadInWorker.
+   * `options` are those of Sweepface.load, `gltfLoader`, a GLTFLoader that has decoders or plugins of its own, `mesh`, the
+   * class of meshes that evaluate vertices as those of the scene are to, and `load`, loadInWorker.
    */
   async parseAsync(given, options, usual = this.options, folder = '') {
-    const {load, others: {gltfLoader, ...others}} = settings(usual, options);
+    const {load, others: {gltfLoader, mesh, ...others}} = settings(usual, options);
     if (isGiven(gltfLoader) && typeof gltfLoader.parseAsync !== 'function')
       throw new TypeError("The option 'gltfLoader' is a GLTFLoader.");
-    const name = others.name || 'The face', bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
+    const way = meshFrom(mesh)[card], name = others.name || 'The face', bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
     checkDetail(others);
     const face = await load(rest, others);
     try {
@@ -93,7 +94,7 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
       fill(scene.json, geometries, face, name);
       const parts = new Map([...geometries].map(([part, geometry]) => [geometry, part]));
       const animations = gltf.animations.map((animation) => apart(animation, gltf.scene));
-      return Object.assign(gltf, {animations, face: new SceneFace(face, gltf.scenes, parts)});
+      return Object.assign(gltf, {animations, face: new SceneFace(face, gltf.scenes, parts, way)});
     } catch (error) {
       face.dispose();
       throw error;

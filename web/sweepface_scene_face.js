@@ -1,38 +1,12 @@
 // The face of a scene: the meshes that follow its weights.
-import {BufferAttribute, DynamicDrawUsage, Matrix3, Matrix4, Sphere} from 'three';
 import * as SkeletonUtils from 'three/addons/utils/SkeletonUtils.js';
-import {FaceGeometry, faceGeometryOf} from './sweepface_geometry.js';
-import {begin, isGone, movedByWeights, release, show, takeInfluences} from './sweepface_moved.js';
-import {bound} from './sweepface_three.js';
+import {faceGeometryOf, twinGeometry} from './sweepface_geometry.js';
+import {
+  begin, expression, follow, isGone, movedByWeights, release, show, takeInfluences
+} from './sweepface_moved.js';
+import {OnCard} from './sweepface_scene_card.js';
+import {OnProcessor} from './sweepface_scene_processor.js';
 import {twinOf} from './sweepface_twin.js';
-
-/** Attributes that follow the face. */
-const CHANGING = ['position', 'normal'];
-
-/** Vertices that meshes share: attributes for their part of a face's positions and normals. */
-class Run {
-  #toMesh;  // from the space of the scene to that of the mesh, unless they are the same
-  bounds = new Sphere();
-
-  constructor({first, count, world}, {positions, normals}) {
-    const own = (all) => new BufferAttribute(all.subarray(3 * first, 3 * (first + count)), 3).setUsage(DynamicDrawUsage);
-    this.position = own(positions);
-    this.normal = own(normals);
-    if (world.equals(new Matrix4())) return;
-    const points = world.clone().invert();
-    this.#toMesh = {points, normals: new Matrix3().getNormalMatrix(points)};
-  }
-
-  /** Brings the attributes to the space of the mesh after the face has been evaluated. */
-  update() {
-    if (this.#toMesh) {
-      this.position.applyMatrix4(this.#toMesh.points);
-      this.normal.applyNormalMatrix(this.#toMesh.normals);
-    }
-    this.position.needsUpdate = this.normal.needsUpdate = true;
-    bound(this.position, this.bounds);
-  }
-}
 
 /** All objects of some scenes. */
 function objectsIn(scenes) {
@@ -64,46 +38,44 @@ function refit(objects, parts, make) {
   return new Map([...made].map(([geometry, own]) => [own, parts.get(geometry)]));
 }
 
-const freshGeometry = (geometry) => faceGeometryOf(geometry, CHANGING);
-
-function clonedGeometry(geometry) {
-  const clone = new FaceGeometry().fix(CHANGING);
-  clone.take(geometry);
-  return clone;
-}
-
 /** The face of a scene. Whatever moves morph targets moves it, too. */
 export class SceneFace extends movedByWeights(Object) {
-  #arrays;
-  #runs;
-  #parts;   // what each geometry is of the face
+  #way;         // how materials follow the face, if the graphics card evaluates it
+  #evaluation;  // brings the weights to the screen
+  #parts;       // what each geometry is of the face
   #meshes;
-  #own;     // what else goes with the face
-  #shared;  // by a model and its clones: {users, resources}
+  #own;         // what else goes with the face
+  #shared;      // by a model and its clones: {users, resources}
 
-  /** `parts` is a map from geometries in the scenes, which make room for others: {run, names}. */
-  constructor(face, scenes, parts, make = freshGeometry, shared) {
+  /**
+   * `parts` is a map from geometries in the scenes, which make room for others: {run, names}. `way` is how materials are
+   * to follow the face (sweepface_followers.js); without, it is evaluated on the processor. `original` is the face that
+   * this one is a clone of.
+   */
+  constructor(face, scenes, parts, way, original) {
     super();
-    const numbers = () => new Float32Array(3 * face.vertexCount), objects = objectsIn(scenes);
-    this.#arrays = {positions: numbers(), normals: numbers()};
-    this.#parts = refit(objects, parts, make);
-    const runs = new Set([...this.#parts.values()].map(({run}) => run));
-    this.#runs = new Map([...runs].map((run) => [run, new Run(run, this.#arrays)]));
-    this.#meshes = objects.filter(({geometry}) => this.#parts.has(geometry));
+    const objects = objectsIn(scenes), runs = new Set([...parts.values()].map(({run}) => run));
+    this.#way = way;
+    this.#evaluation = way ? new OnCard(face, runs, way, original?.#evaluation) : new OnProcessor(face, runs);
+    this.#parts = refit(objects, parts, (geometry) => this.#geometryFor(geometry, parts.get(geometry), original));
+    const runOf = ({geometry}) => this.#parts.get(geometry)?.run;
+    this.#meshes = objects.filter(runOf);
     this.#own = objects.flatMap((object) => [object.skeleton, object.isInstancedMesh && object]).filter(Boolean);
-    this.#shared = shared ?? {users: 0, resources: resourcesOf(objects, (each) => this.#parts.has(each))};
+    this.#shared = original?.#shared ?? {users: 0, resources: resourcesOf(objects, (each) => this.#parts.has(each))};
     ++this.#shared.users;
-    for (const [geometry, {run}] of this.#parts) {
-      const {position, normal, bounds} = this.#runs.get(run);
-      geometry.setAttribute('position', position);
-      if (geometry.attributes.normal) geometry.setAttribute('normal', normal);
-      geometry.boundingSphere = bounds;
-    }
+    this.#evaluation.dress(objects, runOf, Boolean(original), face, () => (this[isGone] ? undefined : this[expression]));
     const index = new Map(face.names.map((name, k) => [name, k]));
     this[begin](face, this.#meshes.map((mesh) => {
       return {mesh, targets: this.#parts.get(mesh.geometry).names.map((name) => index.get(name) ?? -1)};
-    }), !shared);
+    }), !original);
     this.update();
+  }
+
+  #geometryFor(geometry, {run}, original) {
+    const {changing} = this.#evaluation, make = original ? twinGeometry : faceGeometryOf;
+    const made = make(geometry, this.#evaluation.attributesOf(run), changing);
+    made.boundingSphere = this.#evaluation.boundsOf(run);
+    return made;
   }
 
   /** The meshes that show the face; nodes may share a geometry. */
@@ -120,9 +92,10 @@ export class SceneFace extends movedByWeights(Object) {
     return super.update(seconds);
   }
 
+  [follow]() { this.#evaluation.follow(); }
+
   [show]() {
-    this.face.evaluate(this.#arrays.positions, this.#arrays.normals);
-    for (const run of this.#runs.values()) run.update();
+    this.#evaluation.show(this.face);
     for (const geometry of this.#parts.keys()) if (geometry.boundingBox) geometry.computeBoundingBox();
   }
 
@@ -131,7 +104,7 @@ export class SceneFace extends movedByWeights(Object) {
     this[takeInfluences]();
     const copy = SkeletonUtils.clone(scene), face = twinOf(this.face);
     try {
-      return {scene: copy, face: new SceneFace(face, [copy], this.#parts, clonedGeometry, this.#shared)};
+      return {scene: copy, face: new SceneFace(face, [copy], this.#parts, this.#way, this)};
     } catch (error) {
       face.dispose();
       throw error;
@@ -141,6 +114,7 @@ export class SceneFace extends movedByWeights(Object) {
   /** Frees the geometries of the face, and what else the scene was loaded with if no clone shows it. */
   [release]() {
     const isLast = --this.#shared.users === 0;
+    this.#evaluation.dispose();
     for (const each of [...this.#parts.keys(), ...this.#own, ...(isLast ? this.#shared.resources : [])]) each.dispose();
   }
 }

@@ -52,8 +52,8 @@ export class SweepfaceMesh extends FaceMesh {
   [standing]() { return this.#position().array; }
 }
 
-/** The class of meshes that a loader makes. */
-function meshFrom(mesh = SweepfaceMesh) {
+/** The class of meshes that a loader is to make. */
+export function meshFrom(mesh = SweepfaceMesh) {
   if (mesh?.prototype instanceof FaceMesh) return mesh;
   throw new TypeError("The option 'mesh' is a class: SweepfaceMesh, SweepfaceGpuMesh or SweepfaceNodeMesh.");
 }

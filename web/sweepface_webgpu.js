@@ -3,22 +3,24 @@
 import {DataTexture, IntType, REVISION, RGIntegerFormat} from 'three';
 import {
   Fn, Loop, attribute, bitcast, cross, float, instancedMesh, int, ivec2, materialReference, normalLocal,
-  positionGeometry, positionLocal, positionPrevious, texture, uniform, vec3, vec4
+  positionGeometry, positionLocal, positionPrevious, skinning, tangentGeometry, tangentLocal, texture, uniform, vec3,
+  vec4
 } from 'three/tsl';
-import {CardMesh, check, complain, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
+import {CardMesh} from './sweepface_card.js';
+import {card, complain, refuse, sourceOf} from './sweepface_followers.js';
 
 /** Two 16-bit integers in a 32-bit one, the first in the lower half: WebGPURenderer has no 16-bit integer textures. */
 const INTEGERS = {Data: Int32Array, perTexel: 2, format: RGIntegerFormat, type: IntType};
 
 /** Placeholders that are read without a face, as a shader needs textures from the start. */
 const nothing = () => Object.assign(new DataTexture(new Int32Array(2), 1, 1, RGIntegerFormat, IntType), {needsUpdate: true});
-const NONE = {basis: nothing(), modes: nothing(), factor: 0};
+const NONE = sourceOf({basis: nothing(), modes: nothing(), factor: 0});
 
-/** Textures by mesh or its geometry: one shader serves all faces, and gets the textures of the one that it draws. */
-const texturesOf = new WeakMap();
-const drawn = ({object}) => texturesOf.get(object) ?? texturesOf.get(object.geometry) ?? NONE;
-const basis = texture(NONE.basis).onObjectUpdate((frame) => drawn(frame).basis);
-const modes = texture(NONE.modes).onObjectUpdate((frame) => drawn(frame).modes);
+/** What is read by mesh or its geometry: one shader serves all faces, and reads that of the one that it draws. */
+const sources = new WeakMap();
+const drawn = ({object}) => sources.get(object) ?? sources.get(object.geometry) ?? NONE;
+const basis = texture(NONE.textures.basis).onObjectUpdate((frame) => drawn(frame).textures.basis);
+const modes = texture(NONE.textures.modes).onObjectUpdate((frame) => drawn(frame).textures.modes);
 
 /** Texel k of a texture of 1024 texels a row: four integers. */
 function fourAt(table, k) {
@@ -52,17 +54,25 @@ function displacement() {
 }
 
 /** The position of a vertex, with its normal set on the way; `next`, a material's own node, goes on from there. */
-const evaluated = (next) => Fn(({material, object, renderer}) => {
-  const factor = uniform(0).onObjectUpdate((frame) => drawn(frame).factor);
+const evaluated = (next) => Fn((builder) => {
+  const {material, object, renderer} = builder;
+  const factor = uniform(0).onObjectUpdate((frame) => drawn(frame).textures.factor);
+  const matrix = (name) => uniform(NONE[name]).onObjectUpdate((frame) => drawn(frame)[name]);
   const place = attribute('sweepPlace', 'uvec3'), tangentPlace = attribute('sweepTangentPlace', 'uvec3');
+  const floats = (words) => vec3(...['x', 'y', 'z'].map((axis) => bitcast(words[axis], 'float')));
   const scale = (of) => bitcast(of.z, 'float').mul(factor);
   const [moved] = sumOf(place, 1), [along, across] = sumOf(tangentPlace, 2);
-  const row = (name, sum) => unit(attribute(name, 'vec3').add(sum.mul(scale(tangentPlace))));
-  positionLocal.assign(positionGeometry.add(moved.mul(scale(place))));
-  normalLocal.assign(unit(cross(row('sweepAlong', along), row('sweepAcross', across))));
+  const row = (name, sum) => unit(floats(attribute(name, 'uvec3')).add(sum.mul(scale(tangentPlace))));
+  positionLocal.assign(positionGeometry.add(matrix('linear').mul(moved.mul(scale(place)))));
+  normalLocal.assign(unit(matrix('upright').mul(cross(row('sweepAlong', along), row('sweepAcross', across)))));
+  // Once more, as they have placed the neutral; before 0.185 they come after this.
+  const isToCome = Number.parseInt(REVISION) < 185;
+  if (object.isSkinnedMesh && !isToCome) {
+    if (builder.hasGeometryAttribute('tangent')) tangentLocal.assign(tangentGeometry);
+    skinning(object).toStack();
+  }
   if (material.displacementMap) positionLocal.addAssign(displacement());
-  // Once more, as it has placed the neutral; before 0.185 it comes after this.
-  if (object.isInstancedMesh && Number.parseInt(REVISION) > 184) instancedMesh(object).toStack();
+  if (object.isInstancedMesh && !isToCome) instancedMesh(object).toStack();
   // Otherwise what the expression has moved would seem to move every frame.
   if (renderer.getMRT()?.has('velocity')) positionPrevious.assign(positionLocal);
   return next ?? positionLocal;
@@ -70,28 +80,32 @@ const evaluated = (next) => Fn(({material, object, renderer}) => {
 
 const ALONE = evaluated();
 
-/** A face in a scene that follows its weights without its vertices leaving the graphics card. */
-export class SweepfaceNodeMesh extends CardMesh {
-  constructor(face, materials) {
-    super(face, materials, INTEGERS);
-    texturesOf.set(this, this[textures]).set(this.geometry, this[textures]);
-    this.update();
-  }
+/** How materials of WebGPURenderer follow a face. */
+const BY_NODES = {
+  integers: INTEGERS,
+  names: ['positionNode', 'castShadowPositionNode'],
 
-  onBeforeRender(renderer) {
-    if (renderer.isWebGLRenderer) complain('SweepfaceNodeMesh', 'WebGLRenderer', 'SweepfaceGpuMesh');
-  }
-
-  [check](material) {
+  check(material) {
     if (material.isShaderMaterial) refuse(material, 'is written in GLSL, which WebGPURenderer does not draw; take one of nodes');
-  }
+  },
 
-  get [hookNames]() { return ['positionNode', 'castShadowPositionNode']; }
-
-  [hooksFor]({positionNode, castShadowPositionNode}) {
+  hooks({positionNode, castShadowPositionNode}) {
     return {
       positionNode: positionNode ? evaluated(positionNode) : ALONE,
       castShadowPositionNode: castShadowPositionNode ? evaluated(castShadowPositionNode) : null
     };
+  },
+
+  shadows: () => ({}),  // are drawn by the same nodes
+
+  drawn(object, source) { sources.set(object, source); },
+
+  meet(renderer) {
+    if (renderer.isWebGLRenderer) complain('SweepfaceNodeMesh', 'WebGLRenderer', 'SweepfaceGpuMesh');
   }
+};
+
+/** A face in a scene that follows its weights without its vertices leaving the graphics card. */
+export class SweepfaceNodeMesh extends CardMesh {
+  static get [card]() { return BY_NODES; }
 }

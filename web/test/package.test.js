@@ -57,14 +57,16 @@ test('the package holds what is needed, and an application can use it', () => {
                     'sweepface_animation.js', 'sweepface_babylon.d.ts', 'sweepface_babylon.js',
                     'sweepface_captures.js', 'sweepface_card.d.ts', 'sweepface_card.js', 'sweepface_chunks.js',
                     'sweepface_clip.js', 'sweepface_clips.d.ts', 'sweepface_clips.js', 'sweepface_drives.js',
-                    'sweepface_file.js', 'sweepface_full.wasm', 'sweepface_geometry.js', 'sweepface_glb.js',
-                    'sweepface_gpu.d.ts', 'sweepface_gpu.js', 'sweepface_mesh.d.ts', 'sweepface_mesh.js',
-                    'sweepface_moved.js', 'sweepface_names.js', 'sweepface_pin.js', 'sweepface_regions.js',
-                    'sweepface_scene.d.ts', 'sweepface_scene.js', 'sweepface_scene_face.js',
-                    'sweepface_scene_fill.js', 'sweepface_scene_parts.js', 'sweepface_text.js',
-                    'sweepface_thread.js', 'sweepface_three.d.ts', 'sweepface_three.js', 'sweepface_timeline.js',
-                    'sweepface_twin.js', 'sweepface_values.js', 'sweepface_wasm.js', 'sweepface_webgpu.d.ts',
-                    'sweepface_webgpu.js', 'sweepface_worker.d.ts', 'sweepface_worker.js']);
+                    'sweepface_file.js', 'sweepface_followers.js', 'sweepface_full.wasm',
+                    'sweepface_geometry.js', 'sweepface_glb.js', 'sweepface_gpu.d.ts', 'sweepface_gpu.js',
+                    'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_moved.js', 'sweepface_names.js',
+                    'sweepface_pin.js', 'sweepface_regions.js', 'sweepface_scene.d.ts', 'sweepface_scene.js',
+                    'sweepface_scene_card.js', 'sweepface_scene_face.js', 'sweepface_scene_fill.js',
+                    'sweepface_scene_parts.js', 'sweepface_scene_processor.js', 'sweepface_text.js',
+                    'sweepface_textures.js', 'sweepface_thread.js', 'sweepface_three.d.ts',
+                    'sweepface_three.js', 'sweepface_timeline.js', 'sweepface_twin.js', 'sweepface_values.js',
+                    'sweepface_wasm.js', 'sweepface_webgpu.d.ts', 'sweepface_webgpu.js',
+                    'sweepface_worker.d.ts', 'sweepface_worker.js']);
   mkdirSync(join(scratch, 'node_modules'));
   run('tar', ['xf', join(scratch, packed.filename)], scratch);
   symlinkSync(join(scratch, 'package'), join(scratch, 'node_modules', 'sweepface'));

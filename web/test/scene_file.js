@@ -133,3 +133,22 @@ export function converted({json, binary}, ...options) {
   execFileSync(tool, all, {stdio: ['ignore', 'ignore', 'pipe']});
   return file;
 }
+
+/** Node has no images: three.js complains about each. */
+export async function inSilence(act) {
+  const {error} = console;
+  console.error = () => {};
+  try {
+    return await act();
+  } finally {
+    console.error = error;
+  }
+}
+
+/** What a loader of scenes makes of a file in Node. */
+export async function loadScene(bytes, settings) {
+  globalThis.self ??= globalThis;  // as GLTFLoader expects it
+  globalThis.ProgressEvent ??= Event;  // as FileLoader does
+  const {SweepfaceSceneLoader} = await import('../sweepface_scene.js');
+  return inSilence(() => new SweepfaceSceneLoader().parseAsync(bytes, {name: 'model.sweep', ...settings}));
+}

@@ -102,6 +102,9 @@ export async function useScene(scene: Scene, bytes: ArrayBuffer): Promise<SceneF
   const twin = cloneScene(model), another: SceneFace = cloneScene(twin).face;
   scene.add(twin.scene);
   another.setWeights(twin.face.weights);
+  for (const mesh of [SweepfaceMesh, SweepfaceGpuMesh, SweepfaceNodeMesh]) await loader.parseAsync(bytes, {mesh});
+  // @ts-expect-error That is no mesh of a face.
+  await loader.parseAsync(bytes, {mesh: Scene});
   // @ts-expect-error A scene has the vertices of its source.
   await loader.parseAsync(bytes, {lod: 2});
   // @ts-expect-error Loaders make it.

@@ -1,0 +1,119 @@
+// What the vertex shaders of sweepface/gpu and sweepface/webgpu read: tables in textures, and attributes that point into
+// them.
+import {
+  BufferAttribute, DataTexture, InterleavedBuffer, InterleavedBufferAttribute, NearestFilter, Vector3
+} from 'three';
+import {faceFrom} from './sweepface_values.js';
+
+/** Texels in a row: texel k of a texture is at (k mod 1024, k / 1024). */
+const WIDTH = 1024;
+
+/** A texture of four 16-bit integers per texel, padded to whole rows. `integers` say how it holds them. */
+function texture({Data, perTexel, ...settings}, count, ...parts) {
+  const height = Math.max(1, Math.ceil(count / (4 * WIDTH))), data = new Data(perTexel * WIDTH * height);
+  const made = Object.assign(new DataTexture(data, WIDTH, height), settings);
+  made.minFilter = made.magFilter = NearestFilter;
+  made.needsUpdate = true;
+  const numbers = numbersOf(made);
+  parts.reduce((at, part) => (numbers.set(part, at), at + part.length), 0);
+  return made;
+}
+
+const numbersOf = ({image: {data}}) => new Int16Array(data.buffer, data.byteOffset, data.byteLength / 2);
+
+/** The tables of positions, followed in the same textures by those of tangents. All clones of a face share the basis. */
+export class Textures {
+  #basis;
+  #isGone = false;
+
+  /** `integers` is {Data, perTexel} and the members to set on a texture that holds four 16-bit integers per texel. */
+  constructor({positions, tangents}, integers) {
+    this.between = 4 * positions.modes;
+    this.end = this.between + 4 * tangents.modes;
+    const basis = texture(integers, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
+    this.#basis = {texture: basis, users: 1};
+    this.modes = texture(integers, this.end);
+    this.factor = 0;  // depends on the weights alone, and so is the same for both
+  }
+
+  get basis() { return this.#basis.texture; }
+
+  share(original) {
+    this.#basis = original.#basis;
+    ++this.#basis.users;
+  }
+
+  update(face) {
+    const numbers = numbersOf(this.modes);
+    this.factor = face.shaderModes(numbers.subarray(0, this.between));
+    face.shaderModes(numbers.subarray(this.between, this.end), true);
+    this.modes.needsUpdate = true;
+  }
+
+  dispose() {
+    if (this.#isGone) return;
+    this.#isGone = true;
+    if (--this.#basis.users === 0) this.basis.dispose();
+    this.modes.dispose();
+  }
+}
+
+/** The tables of positions and of tangents; places in the latter are those behind the former. */
+export function tablesOf(face) {
+  const positions = faceFrom(face).shaderTables(), tangents = face.shaderTables(true);
+  for (let k = 0; k < tangents.places.length; k += 3) {
+    tangents.places[k] += positions.basis.length / 4;
+    tangents.places[k + 1] += 64 * positions.modes;
+  }
+  return {positions, tangents};
+}
+
+/** Attributes that point into the textures, and those that hold the bits of a neutral's tangents: three words a vertex. */
+const NAMES = ['sweepPlace', 'sweepTangentPlace', 'sweepAlong', 'sweepAcross'], STRIDE = 3 * NAMES.length;
+
+/** The words of these attributes at points, [points x attributes x 3]. */
+function wordsOf({positions, tangents}, points) {
+  const bits = new Uint32Array(tangents.neutral.buffer, tangents.neutral.byteOffset, tangents.neutral.length);
+  const words = new Uint32Array(STRIDE * points.length);
+  points.forEach((point, v) => {
+    words.set(positions.places.subarray(3 * point, 3 * point + 3), STRIDE * v);
+    words.set(tangents.places.subarray(3 * point, 3 * point + 3), STRIDE * v + 3);
+    words.set(bits.subarray(6 * point, 6 * point + 6), STRIDE * v + 6);
+  });
+  return words;
+}
+
+/** The normals of surfaces that have tangents [count x 2 x 3], at points. */
+function normalsOf(tangents, points) {
+  const normals = new Float32Array(3 * points.length), along = new Vector3(), across = new Vector3();
+  points.forEach((point, v) => {
+    along.fromArray(tangents, 6 * point).normalize();
+    across.fromArray(tangents, 6 * point + 3).normalize();
+    along.cross(across).normalize().toArray(normals, 3 * v);
+  });
+  return normals;
+}
+
+/** An attribute of every `stride` words the three from `at` on. */
+function taken(words, stride, at) {
+  const own = new Uint32Array(3 * words.length / stride);
+  for (let k = 0; k < own.length; k += 3) own.set(words.subarray(stride * k / 3 + at, stride * k / 3 + at + 3), k);
+  return new BufferAttribute(own, 3);
+}
+
+/**
+ * The attributes of vertices that are these points of a face, an Uint32Array; `inOneBuffer` for meshes that have many
+ * others, as WebGPU allows only eight buffers.
+ */
+export function attributesOf(tables, points, inOneBuffer = false) {
+  const {positions: {neutral}, tangents} = tables, words = wordsOf(tables, points), places = new Float32Array(3 * points.length);
+  const buffer = new InterleavedBuffer(words, STRIDE);
+  points.forEach((point, v) => places.set(neutral.subarray(3 * point, 3 * point + 3), 3 * v));
+  return {
+    position: new BufferAttribute(places, 3),
+    normal: new BufferAttribute(normalsOf(tangents.neutral, points), 3),  // for materials that do not follow the face
+    ...Object.fromEntries(NAMES.map((name, k) => {
+      return [name, inOneBuffer ? new InterleavedBufferAttribute(buffer, 3, 3 * k) : taken(words, STRIDE, 3 * k)];
+    }))
+  };
+}

@@ -1,0 +1,208 @@
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import test from 'node:test';
+import {skip, withPage} from './browser.js';
+import {converted, loadScene, model} from './scene_file.js';
+
+const blank = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">
+  {"imports": {"three": "./node_modules/three/build/three.module.js",
+               "three/addons/": "./node_modules/three/examples/jsm/",
+               "three/webgpu": "./node_modules/three/build/three.webgpu.js",
+               "three/tsl": "./node_modules/three/build/three.tsl.js"}}</script>`;
+
+/** A model that moves by its skeleton, in a node that stands askew, and with a second pair of textures. */
+function file() {
+  const made = model();
+  made.json.nodes[1].rotation = [0, 0, 0.1, 0.995];
+  return readFileSync(converted(made));
+}
+
+/** In the page: loads scenes, and makes pictures of them by one of three.js's renderers. */
+async function prepare(kind) {
+  const isNodes = kind !== 'WebGLRenderer', THREE = globalThis.THREE = await import(isNodes ? 'three/webgpu' : 'three');
+  const {SweepfaceSceneLoader, cloneScene} = await import('./sweepface_scene.js');
+  const {SweepfaceGpuMesh} = await import('./sweepface_gpu.js'), {SweepfaceMesh} = await import('./sweepface_three.js');
+  const CardMesh = isNodes ? (await import('./sweepface_webgpu.js')).SweepfaceNodeMesh : SweepfaceGpuMesh;
+  const bytes = await (await fetch('./model.sweep')).arrayBuffer(), size = 256, canvas = document.createElement('canvas');
+  const renderer = isNodes ? new THREE.WebGPURenderer({canvas, forceWebGL: kind === 'nodes in WebGL'})
+                           : new THREE.WebGLRenderer({canvas});
+  await renderer.init?.();
+  renderer.shadowMap.enabled = true;
+  const Target = isNodes ? THREE.RenderTarget : THREE.WebGLRenderTarget, target = new Target(size, size);
+  const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 50), light = new THREE.DirectionalLight(0xffffff, 3);
+  const scene = globalThis.scene = new THREE.Scene();
+  camera.position.set(0.5, 0.4, 5);
+  camera.lookAt(0, 0.2, 0);
+  light.position.set(1, 1, 2);
+  scene.add(light, new THREE.AmbientLight(0xffffff, 0.5));
+  Object.assign(globalThis, {
+    renderer, light, camera, cloneScene,
+    load: (mesh) => new SweepfaceSceneLoader().parseAsync(bytes, {name: 'model.sweep', mesh}),
+    both: () => Promise.all([SweepfaceMesh, CardMesh].map((mesh) => globalThis.load(mesh))),
+    pose({scene, face}, jawOpen, smile, look) {
+      face.setWeights({jawOpen, smile, look});
+      face.update();
+      scene.getObjectByName('neck').rotation.z = jawOpen / 2;
+    },
+    async draw(...models) {
+      await new Promise(requestAnimationFrame);  // shadows are redrawn once a frame
+      const shown = models.map((model) => model.scene ?? model);
+      scene.add(...shown);
+      renderer.setRenderTarget(target);
+      renderer.render(scene, camera);
+      scene.remove(...shown);
+      if (isNodes) return renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size);
+      const pixels = new Uint8Array(4 * size * size);
+      renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
+      return pixels;
+    },
+    /** The share of pixels that differ visibly. */
+    differ(a, b) {
+      let count = 0;
+      for (let k = 0; k < a.length; k += 4) count += [0, 1, 2].some((c) => Math.abs(a[k + c] - b[k + c]) > 24);
+      return 4 * count / a.length;
+    }
+  });
+  return renderer.backend?.isWebGPUBackend === true;
+}
+
+const files = {'blank.html': blank, 'model.sweep': !skip && file()}, options = {skip, timeout: 240_000};
+
+/** Asserts that something changes what is seen, and pairs of pictures do not differ. */
+function assertAlike({moved, off}) {
+  for (const [name, share] of Object.entries(moved)) assert.ok(share > 0.01, `${name} changes ${share} of the picture`);
+  for (const [name, share] of Object.entries(off)) assert.ok(share < 0.002, `${name}: ${share} of the pixels differ`);
+}
+
+for (const kind of ['WebGLRenderer', 'nodes in WebGPU', 'nodes in WebGL'])
+  test(`a scene on the graphics card, by ${kind}`, options, (t) => withPage('blank.html', {files}, async (page, complaints) => {
+    const isThere = kind !== 'nodes in WebGPU' || await page.evaluate(() => navigator.gpu?.requestAdapter().then(Boolean));
+    if (!isThere) return t.skip('this browser has no WebGPU');
+    await page.evaluate(`globalThis.prepare = ${prepare}`);
+    assert.equal(await page.evaluate((kind) => globalThis.prepare(kind), kind), kind === 'nodes in WebGPU');
+
+    await t.test('is drawn as the processor would have it, shadows included', async () => {
+      const found = await page.evaluate(async () => {
+        const {THREE, both, draw, differ, pose, light, scene} = globalThis, models = await both();
+        const pictures = async () => [await draw(models[0]), await draw(models[1])];
+        const rest = await pictures();
+        for (const model of models) pose(model, 1, 0.5, 1);
+        const posed = await pictures(), wall = new THREE.Mesh(new THREE.PlaneGeometry(9, 9), new THREE.MeshStandardMaterial());
+        wall.position.z = -0.5;
+        scene.add(wall);
+        const bright = await draw(models[0]);
+        for (const model of models) model.scene.traverse((object) => {
+          object.castShadow = object.receiveShadow = true;
+          if (object.material) object.material.shadowSide = THREE.DoubleSide;  // as its surfaces are open
+        });
+        light.castShadow = wall.receiveShadow = true;
+        const shaded = await pictures();
+        for (const model of models) pose(model, 0, 0, 0);
+        const relaxed = await pictures();
+        scene.remove(wall);
+        light.castShadow = false;
+        return {
+          moved: {pose: differ(rest[0], posed[0]), shadow: differ(bright, shaded[0]), rest: differ(shaded[0], relaxed[0])},
+          off: {rest: differ(...rest), posed: differ(...posed), shaded: differ(...shaded), relaxed: differ(...relaxed)}
+        };
+      });
+      assertAlike(found);
+      assert.deepEqual(complaints, []);
+    });
+
+    await t.test('goes on in its clones, and without the original', async () => {
+      assertAlike(await page.evaluate(async () => {
+        const {both, draw, differ, pose, cloneScene} = globalThis, models = await both();
+        const twins = models.map((model) => cloneScene(model));
+        models.forEach(({scene}) => { scene.position.x = -1; });
+        twins.forEach(({scene}) => { scene.position.x = 1; });
+        const pictures = async () => [await draw(models[0], twins[0]), await draw(models[1], twins[1])];
+        for (const model of models) pose(model, 1, 0, 1);
+        const apart = await pictures();
+        for (const model of twins) pose(model, -1, 1, 0);
+        const moved = await pictures();
+        for (const {face} of models) face.dispose();
+        const alone = [await draw(twins[0]), await draw(twins[1])];
+        return {moved: {twin: differ(apart[0], moved[0])},
+                off: {apart: differ(...apart), moved: differ(...moved), alone: differ(...alone)}};
+      }));
+      assert.deepEqual(complaints, []);
+    });
+  }));
+
+const three = await import('three').catch(() => undefined);
+const inNode = {skip: three ? false : 'three is not installed; try npm ci'};
+
+/** The model on the processor and on the graphics card. */
+async function pair(bytes = readFileSync(converted(model()))) {
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  return Promise.all([loadScene(bytes), loadScene(bytes, {mesh: SweepfaceGpuMesh})]);
+}
+
+test('rays meet the face as it stands, until it is disposed of', inNode, async () => {
+  const models = await pair(), ray = new three.Raycaster();
+  const met = (weights) => models.map(({scene, face}) => {
+    face.setWeights(weights);
+    face.update();
+    scene.updateMatrixWorld(true);
+    return [[0, -0.5], [0.05, 0.05], [0.4, 0.35]].flatMap(([x, y]) => {
+      ray.set(new three.Vector3(x, y, 5), new three.Vector3(0, 0, -1));
+      return ray.intersectObject(scene).map(({object, point, normal}) => [object.name, ...point.toArray(), ...normal.toArray()]);
+    });
+  });
+  const rest = met({jawOpen: 0, look: 0}), moved = met({jawOpen: 1, smile: 1, look: 1});
+  for (const [onCpu, onCard] of [rest, moved]) assert.deepEqual(onCard, onCpu);
+  assert.notDeepEqual(rest[0], moved[0]);
+  assert.ok(moved[0].length > 3);
+  models[1].face.dispose();
+  assert.deepEqual(ray.intersectObjects(models[1].face.meshes, false), []);
+});
+
+test('materials that follow the face are on nothing else', inNode, async () => {
+  const made = model();
+  made.json.meshes[2].primitives[0].material = 0;  // the hat is of skin
+  const [, {scene, face}] = await pair(readFileSync(converted(made)));
+  const [lips, skin, eye, otherEye] = face.meshes.map(({material}) => material), hat = scene.getObjectByName('hat').material;
+  assert.deepEqual([lips, skin, eye, hat].map(({name}) => name), ['lips', 'skin', 'skin', 'skin']);
+  assert.equal(new Set([lips, skin, eye, hat]).size, 4);  // eyes stand otherwise than the head
+  assert.equal(eye, otherEye);
+  const follows = (material) => Object.hasOwn(material, 'onBeforeCompile');
+  assert.deepEqual([lips, skin, eye, hat].map(follows), [true, true, true, false]);
+  const fresh = new three.MeshBasicMaterial();
+  face.meshes[0].material = fresh;
+  face.update();
+  assert.deepEqual([fresh, lips].map(({onBeforeCompile}) => onBeforeCompile.length), [2, 0]);
+  const blind = new three.ShaderMaterial({name: 'blind', vertexShader: 'void main() { gl_Position = vec4(0); }'});
+  face.meshes[0].material = blind;
+  assert.throws(() => face.update(), {message: /^The material 'blind' has no `#include <begin_vertex>`/});
+  face.meshes[0].material = hat;
+  face.update();
+  assert.ok(follows(hat));
+});
+
+test('a scene on the graphics card frees what was made for it', inNode, async () => {
+  const {cloneScene} = await import('../sweepface_scene.js');
+  const [, model] = await pair(), twin = cloneScene(model), [, {material: skin}] = model.face.meshes, gone = [];
+  const [, {material: theirs, customDepthMaterial: depth}] = twin.face.meshes;
+  assert.notEqual(theirs, skin);
+  for (const [name, material] of Object.entries({skin, theirs, depth})) material.addEventListener('dispose', () => gone.push(name));
+  twin.face.setWeights({jawOpen: 1});
+  twin.face.update();
+  assert.equal(model.face.weights.jawOpen, 0.25);
+  twin.face.dispose();
+  assert.deepEqual([...new Set(gone)].sort(), ['depth', 'theirs']);
+  model.face.dispose();
+  assert.ok(gone.includes('skin'));
+  assert.equal(skin.onBeforeCompile.length, 0);
+});
+
+test('what cannot draw a scene on the graphics card says so', inNode, async () => {
+  const [, {scene, face}] = await pair(), told = [], {error} = console, [mesh] = face.meshes;
+  console.error = (message) => told.push(message);
+  try {
+    for (let frame = 0; frame < 2; ++frame) mesh.onBeforeRender({isRenderer: true}, scene);
+  } finally {
+    console.error = error;
+  }
+  assert.deepEqual(told, ['WebGPURenderer draws the neutral of every SweepfaceGpuMesh; make a SweepfaceNodeMesh for it.']);
+});
