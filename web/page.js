@@ -5,6 +5,7 @@ import {
   controls, hasScene, isLost, linesOver, loadAlone, loadScene, placeCamera, removeLines, render, resize, scene,
   stage, view
 } from './page_stage.js';
+import {advanceTake, offerTakes, playTake} from './page_takes.js';
 
 const LOST = 'The graphics card is not available to this page; if it does not come back, reload the page.';
 
@@ -92,11 +93,12 @@ function stand(mover, weights) {
   }
 }
 
-/** Offers what can be chosen of the face on show: a scene has neither levels of detail nor lines. */
+/** Offers what can be chosen of the face on show: a scene has neither levels of detail nor lines, but may be animated. */
 function offer(mayHaveScene) {
   const inScene = model.object !== mesh;
   at('choice').hidden = !mayHaveScene;
   at('lod').disabled = at('lines').disabled = at('lines').parentElement.hidden = inScene;
+  offerTakes(model);
 }
 
 /** Runs an action, and reports its error if it fails. */
@@ -158,6 +160,7 @@ function surprise() {
 function draw(seconds) {
   const began = performance.now(), versionOf = () => model?.meshes[0].geometry.attributes.position.version;
   const version = versionOf();
+  if (advanceTake(seconds)) wake();
   mesh?.update(seconds);
   if (versionOf() !== version) {
     average('evaluation', performance.now() - began);
@@ -242,6 +245,10 @@ at('rest').addEventListener('click', () => {
 });
 for (const id of ['lod', 'scene'])
   at(id).addEventListener('change', () => latest && show(latest.source, latest.name, latest.source === file?.source));
+at('take').addEventListener('change', () => {
+  playTake();
+  wake();
+});
 at('lines').addEventListener('change', () => {
   drawLines();
   wake();

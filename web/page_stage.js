@@ -72,10 +72,10 @@ export async function loadAlone(bytes, options) {
 
 /** The same with all that it came with. */
 export async function loadScene(bytes, options) {
-  const {scene: object, face: mover, parser} = await new SweepfaceSceneLoader().parseAsync(bytes, options);
+  const {scene: object, face: mover, animations, parser} = await new SweepfaceSceneLoader().parseAsync(bytes, options);
   if (parser.json.extensions?.VRM) object.rotation.y = Math.PI;  // avatars of VRM 0 look along -z
   object.traverse((each) => each.isLight && (each.visible = false));  // as the page has its own
-  return {mover, object, meshes: mover.meshes};
+  return {mover, object, animations, meshes: mover.meshes};
 }
 
 let unplaced;         // meshes that were loaded while the view had no area

@@ -285,12 +285,19 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     assert.deepEqual(await choices(), [false, true, true]);
     assert.equal(await page.locator('#lod').inputValue(), '0');  // the level of the face before does not count
     assert.equal(await weight('jawOpen'), 0.25);
+    assert.equal(await page.locator('#takes').isVisible(), true);
+    await page.locator('#take').selectOption('take');
+    await until(() => globalThis.sweepface.mesh.face.weights.jawOpen > 0.5);
+    await until(() => document.querySelector('input[name="jawOpen"]').value > 0.5);
+    await page.locator('#take').selectOption('nothing');
+    await until(() => globalThis.sweepface.mesh.face.weights.jawOpen === 0.25);
     const before = await picture();
     await slide('jawOpen', 1);
     assert.ok(await changed(before, await picture()) > 0.01);
     await page.locator('#scene').uncheck();
     await shown(false);
     assert.deepEqual(await choices(), [false, false, false]);
+    assert.equal(await page.locator('#takes').isVisible(), false);
     assert.equal(await weight('jawOpen'), 1);
     await page.locator('#lines').uncheck();
     await page.locator('#scene').check();
