@@ -154,31 +154,48 @@ class Written {
   }
 };
 
-/// The values of a sampler at a time (glTF 2.0, appendix C).
+/// A sampler of an animation (glTF 2.0, appendix C).
+class Sampler {
+ public:
+  Sampler(const Written& glb, const Json& animation, std::size_t number) {
+    const Json& sampler = animation["samplers"][number];
+    times_ = glb.numbers(sampler["input"].get<std::size_t>());
+    output_ = glb.numbers(sampler["output"].get<std::size_t>());
+    cubic_ = sampler["interpolation"] == "CUBICSPLINE";
+    width_ = output_.size() / times_.size() / (cubic_ ? 3 : 1);
+  }
+
+  /// Its values at a time.
+  std::vector<double> at(double time) const {
+    time = std::clamp(time, times_.front(), times_.back());
+    const auto next = std::lower_bound(times_.begin() + 1, times_.end() - 1, time);
+    const auto k = static_cast<std::size_t>(next - times_.begin()) - 1;
+    const double td = times_[k + 1] - times_[k], t = (time - times_[k]) / td;
+    std::vector<double> values;
+    for (std::size_t w = 0; w < width_; ++w)
+      values.push_back(cubic_ ? cubic(k, w, td, t) : std::lerp(part(k, w), part(k + 1, w), t));
+    return values;
+  }
+
+ private:
+  double part(std::size_t row, std::size_t w) const { return output_[row * width_ + w]; }
+  double cubic(std::size_t k, std::size_t w, double td, double t) const {
+    const double v0 = part(3 * k + 1, w), b0 = part(3 * k + 2, w);
+    const double a1 = part(3 * k + 3, w), v1 = part(3 * k + 4, w);
+    const double t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * v0 + td * (t3 - 2 * t2 + t) * b0 + (-2 * t3 + 3 * t2) * v1 +
+           td * (t3 - t2) * a1;
+  }
+
+  std::vector<double> times_, output_;
+  std::size_t width_ = 0;
+  bool cubic_ = false;
+};
+
+/// The values of a sampler at a time.
 inline std::vector<double> evaluate(const Written& glb, const Json& animation, std::size_t sampler,
                                     double time) {
-  const Json& s = animation["samplers"][sampler];
-  const std::vector<double> times = glb.numbers(s["input"].get<std::size_t>());
-  const std::vector<double> output = glb.numbers(s["output"].get<std::size_t>());
-  const bool cubic = s["interpolation"] == "CUBICSPLINE";
-  const std::size_t width = output.size() / times.size() / (cubic ? 3 : 1);
-  time = std::clamp(time, times.front(), times.back());
-  std::size_t k = 0;
-  while (k + 2 < times.size() && times[k + 1] < time) ++k;
-  const double td = times[k + 1] - times[k], t = (time - times[k]) / td;
-  std::vector<double> values;
-  for (std::size_t w = 0; w < width; ++w) {
-    if (!cubic) {
-      values.push_back(std::lerp(output[k * width + w], output[(k + 1) * width + w], t));
-      continue;
-    }
-    const double v0 = output[(3 * k + 1) * width + w], b0 = output[(3 * k + 2) * width + w];
-    const double a1 = output[(3 * k + 3) * width + w], v1 = output[(3 * k + 4) * width + w];
-    const double t2 = t * t, t3 = t2 * t;
-    values.push_back((2 * t3 - 3 * t2 + 1) * v0 + td * (t3 - 2 * t2 + t) * b0 +
-                     (-2 * t3 + 3 * t2) * v1 + td * (t3 - t2) * a1);
-  }
-  return values;
+  return Sampler(glb, animation, sampler).at(time);
 }
 
 inline Written write(const Rig& rig, const GlbOptions& options = {}) {
