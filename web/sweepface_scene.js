@@ -83,7 +83,8 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
     const {load, others: {gltfLoader, mesh, ...others}} = settings(usual, options);
     if (isGiven(gltfLoader) && typeof gltfLoader.parseAsync !== 'function')
       throw new TypeError("The option 'gltfLoader' is a GLTFLoader.");
-    const way = meshFrom(mesh)[card], name = others.name || 'The face', bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
+    const way = meshFrom(mesh)[card], name = others.name || 'The face';
+    const bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
     checkDetail(others);
     const face = await load(rest, others);
     try {

@@ -10,7 +10,7 @@ export class OnCard {
   #way;  // how materials follow the face: what a class of meshes has as `card`
   #tables;
   #textures;
-  #groups;           // of meshes that are placed alike, by run: {source, followers, meshes}
+  #groups;            // of meshes that are placed alike, by run: {source, followers, meshes, clones}
   #made = new Set();  // materials
   #standing = {};     // for rays: the face on a `processor`, and the expression that it was evaluated `for` last
 
@@ -31,7 +31,7 @@ export class OnCard {
   #groupOf({world}) {
     const {points, normals} = toMesh(world);
     const source = sourceOf(this.#textures, new Matrix3().setFromMatrix4(points), normals);
-    return {source, followers: new Followers(this.#way, source), meshes: []};
+    return {source, followers: new Followers(this.#way, source), meshes: [], clones: new Map()};
   }
 
   /** Names of attributes that follow the weights: none, as geometries hold the neutral. */
@@ -63,7 +63,6 @@ export class OnCard {
   #dressMesh(mesh, run, owners, isClone) {
     const group = this.#groups.get(run);
     group.meshes.push(mesh);
-    group.clones ??= new Map();
     const own = (material) => {
       if (!owners.has(material)) owners.set(material, group);
       if (owners.get(material) === group) return material;
