@@ -1,6 +1,6 @@
 // Shared by the meshes of sweepface/gpu and sweepface/webgpu.
 import {BufferAttribute} from 'three';
-import {card, Followers, sourceOf} from './sweepface_followers.js';
+import {card, Followers, refreshShadow, sourceOf} from './sweepface_followers.js';
 import {geometryOf} from './sweepface_geometry.js';
 import {FaceMesh, materialsOfClone, meet, share} from './sweepface_mesh.js';
 import {expression, follow, show} from './sweepface_moved.js';
@@ -50,6 +50,8 @@ export class CardMesh extends FaceMesh {
   }
 
   onBeforeRender(renderer) { this.constructor[card].meet(renderer); }
+
+  onBeforeShadow(...[, , , , , material]) { refreshShadow(material); }
 
   /** Makes the mesh's current materials, and no others, follow the face. */
   [follow]() { this.#followers.follow(materialsOf(this)); }

@@ -30,6 +30,26 @@ export function refuse(material, what) {
   throw new TypeError(`The material '${material.name || material.type}' ${what}.`);
 }
 
+/**
+ * Shadow materials get what makes holes in a surface from the material that it has, but three.js compiles them only once.
+ * Call it before one is drawn.
+ */
+const shapes = new WeakMap();
+export function refreshShadow(material) {
+  const shape = [material.map, material.alphaMap, material.displacementMap, material.alphaTest > 0].map(Boolean).join();
+  if (shapes.has(material) && shapes.get(material) !== shape) material.needsUpdate = true;
+  shapes.set(material, shape);
+}
+
+const isValue = (it) => it?.isColor || it?.isVector2 || it?.isVector3 || it?.isVector4 || it?.isMatrix3 || it?.isEuler;
+
+/** Has a clone of a material go on with colours and other values of the original, so that what changes them changes both. */
+function shareValues(clone, {...members}) {
+  for (const [key, value] of Object.entries(members))
+    if (isValue(value) && Object.hasOwn(clone, key)) clone[key] = value;
+  if (members.uniforms) clone.uniforms = {...members.uniforms};
+}
+
 /** The materials that follow a face. */
 export class Followers {
   #way;  // how they do it: what a class has as `card`
@@ -45,12 +65,20 @@ export class Followers {
   follow(materials) {
     const all = new Set(materials), fresh = [...all].filter((each) => !this.#isFollowing(each));
     for (const each of fresh) {  // check all before changing any
-      if (hooked.has(each) && !this.#all.has(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
+      if (this.isTaken(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
       this.#way.check(each);
     }
-    for (const each of this.#all) if (!all.has(each) || fresh.includes(each)) this.#release(each);
+    this.keep([...all].filter((each) => !fresh.includes(each)));
     for (const each of fresh) this.#patch(each);
   }
+
+  /** Makes no other materials than these follow the face. */
+  keep(materials) {
+    for (const each of this.#all) if (!materials.includes(each)) this.#release(each);
+  }
+
+  /** Whether a material follows something else. */
+  isTaken(material) { return hooked.has(material) && !this.#all.has(material); }
 
   /** Whether a material still has all the hooks that were put on it. */
   #isFollowing(material) {
@@ -84,9 +112,15 @@ export class Followers {
     this.#all.delete(material);
   }
 
-  /** A clone, which follows no face. */
-  cloneOf(material) { return Object.assign(material.clone(), this.#before(material)); }
+  /** A clone, which follows no face; `sharing` colours and other values or not. */
+  cloneOf(material, sharing = false) {
+    const clone = material.clone(), {hooks} = hooked.get(material) ?? {};
+    for (const [name, before] of Object.entries(this.#before(material)))  // some constructors make members of their own
+      if (!Object.hasOwn(clone, name) || (hooks && clone[name] === hooks[name])) clone[name] = before;
+    if (sharing) shareValues(clone, material);
+    return clone;
+  }
 
   /** No material follows the face from now on. */
-  dispose() { this.follow([]); }
+  dispose() { this.keep([]); }
 }

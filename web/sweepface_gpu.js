@@ -38,6 +38,9 @@ export const SWEEPFACE_GLSL = `
 
 const INTEGERS = {Data: Int16Array, perTexel: 4, format: RGBAIntegerFormat, type: ShortType, internalFormat: 'RGBA16I'};
 
+/** After this the shaders of materials move vertices. */
+const PLACE = '#include <begin_vertex>';
+
 /** How materials of WebGLRenderer follow a face. */
 const BY_CHUNKS = {
   integers: INTEGERS,
@@ -45,8 +48,8 @@ const BY_CHUNKS = {
 
   check(material) {
     if (!material.isShaderMaterial) return;
-    if (!material.vertexShader.includes('#include <begin_vertex>'))
-      refuse(material, 'has no `#include <begin_vertex>` in its vertex shader, to follow the face by; have it, and use `transformed`');
+    if (!material.vertexShader.includes(PLACE))
+      refuse(material, `has no \`${PLACE}\` in its vertex shader, to follow the face by; have it, and use \`transformed\``);
     if (material.isRawShaderMaterial && material.glslVersion !== GLSL3)
       refuse(material, 'is written in GLSL ES 1, which reads no face; set its glslVersion to GLSL3');
   },
@@ -57,11 +60,13 @@ const BY_CHUNKS = {
       customProgramCacheKey: () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material),
       onBeforeCompile(shader, renderer) {
         onBeforeCompile.call(material, shader, renderer);
-        Object.assign(shader.uniforms, {
-          sweepBasis: {value: textures.basis}, sweepModes: {value: textures.modes},
-          sweepFactor: {get value() { return textures.factor; }},
-          sweepLinear: {value: linear}, sweepUpright: {value: upright}
-        });
+        if (!shader.vertexShader.includes(PLACE))
+          console.error(`The material '${material.name || material.type}' shows the neutral, as its onBeforeCompile takes ` +
+                        `away \`${PLACE}\`; keep that, and change \`transformed\` after it.`);
+        shader.uniforms = {  // a copy, as materials may have theirs in common
+          ...shader.uniforms, sweepBasis: {value: textures.basis}, sweepModes: {value: textures.modes},
+          sweepFactor: {get value() { return textures.factor; }}, sweepLinear: {value: linear}, sweepUpright: {value: upright}
+        };
         shader.vertexShader = `
           uniform highp isampler2D sweepBasis, sweepModes;
           uniform float sweepFactor;
@@ -73,7 +78,7 @@ const BY_CHUNKS = {
             objectNormal = sweepfaceUnit(sweepUpright * sweepfaceNormal(
               uintBitsToFloat(sweepAlong), uintBitsToFloat(sweepAcross), sweepTangentPlace, sweepBasis, sweepModes,
               sweepFactor));`)
-          .replace('#include <begin_vertex>', `$&
+          .replace(PLACE, `$&
             transformed = position + sweepLinear * sweepfacePosition(
               vec3(0.0), sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
       }

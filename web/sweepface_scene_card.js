@@ -1,7 +1,7 @@
 // The face of a scene, evaluated on the graphics card.
 import {Matrix3} from 'three';
 import {materialsOf, whileStanding} from './sweepface_card.js';
-import {Followers, sourceOf} from './sweepface_followers.js';
+import {Followers, refreshShadow, sourceOf} from './sweepface_followers.js';
 import {OnProcessor, toMesh} from './sweepface_scene_processor.js';
 import {attributesOf, tablesOf, Textures} from './sweepface_textures.js';
 
@@ -11,15 +11,15 @@ export class OnCard {
   #tables;
   #textures;
   #groups;            // of meshes that are placed alike, by run: {source, followers, meshes, clones}
+  #others;            // materials of what is not the face
   #made = new Set();  // materials
   #standing = {};     // for rays: the face on a `processor`, and the expression that it was evaluated `for` last
 
   /** `original` is what evaluates the face that this one is a clone of. */
   constructor(face, runs, way, original) {
     this.#way = way;
-    this.#tables = tablesOf(face);
-    this.#textures = new Textures(this.#tables, way.integers);
-    if (original) this.#textures.share(original.#textures);
+    this.#tables = original ? undefined : tablesOf(face);
+    this.#textures = original ? original.#textures.twin() : new Textures(this.#tables, way.integers);
     const groups = new Map();
     this.#groups = new Map([...runs].map((run) => {
       const key = String(run.world.elements);
@@ -37,7 +37,9 @@ export class OnCard {
   /** Names of attributes that follow the weights: none, as geometries hold the neutral. */
   get changing() { return []; }
 
+  /** Attributes that a clone has from its original already. */
   attributesOf({first, count, world}) {
+    if (!this.#tables) return {};
     const attributes = attributesOf(this.#tables, Uint32Array.from({length: count}, (_, k) => first + k), true);
     const {points, normals} = toMesh(world);
     attributes.position.applyMatrix4(points);
@@ -52,28 +54,17 @@ export class OnCard {
    * `poseOf` returns the current expression, `face` evaluates it.
    */
   dress(objects, runOf, isClone, face, poseOf) {
-    const owners = new Map();  // by material: the group that it follows with, or null if it cannot
-    for (const mesh of objects.filter((object) => object.material && (isClone || !runOf(object))))
-      for (const material of [mesh.material].flat()) owners.set(material, null);
-    for (const mesh of objects.filter(runOf)) this.#dressMesh(mesh, runOf(mesh), owners, isClone);
-    for (const mesh of objects.filter(runOf)) this.#meet(mesh, runOf(mesh), face, poseOf);
     this.#tables = undefined;  // all is in textures and attributes
-  }
-
-  #dressMesh(mesh, run, owners, isClone) {
-    const group = this.#groups.get(run);
-    group.meshes.push(mesh);
-    const own = (material) => {
-      if (!owners.has(material)) owners.set(material, group);
-      if (owners.get(material) === group) return material;
-      if (!group.clones.has(material)) group.clones.set(material, this.#keep(group.followers.cloneOf(material)));
-      return group.clones.get(material);
-    };
-    mesh.material = Array.isArray(mesh.material) ? mesh.material.map(own) : own(mesh.material);
-    for (const [name, material] of Object.entries(this.#way.shadows()))
-      if (isClone || !mesh[name]) mesh[name] = this.#keep(material);
-    mesh.frustumCulled = false;  // bounds are those of the neutral
-    for (const drawn of [mesh, mesh.geometry]) this.#way.drawn(drawn, group.source);
+    this.#others = new Set(objects.filter((object) => !runOf(object)).flatMap(({material}) => material ?? []));
+    for (const mesh of objects.filter(runOf)) {
+      const run = runOf(mesh), {meshes, source} = this.#groups.get(run);
+      meshes.push(mesh);
+      for (const [name, material] of Object.entries(this.#way.shadows()))
+        if (isClone || !mesh[name]) mesh[name] = this.#keep(material);
+      mesh.frustumCulled = false;  // bounds are those of the neutral
+      for (const drawn of [mesh, mesh.geometry]) this.#way.drawn(drawn, source);
+      this.#meet(mesh, run, face, poseOf);
+    }
   }
 
   #keep(material) {
@@ -83,7 +74,7 @@ export class OnCard {
 
   /** Has rays meet a mesh as it stands, and renderers that cannot draw it say so. */
   #meet(mesh, run, face, poseOf) {
-    const {raycast, onBeforeRender} = mesh;
+    const {raycast, onBeforeRender, onBeforeShadow} = mesh;
     mesh.raycast = (raycaster, hits) => {
       const pose = poseOf();
       if (pose) whileStanding(mesh.geometry, this.#stand(face, run, pose), () => raycast.call(mesh, raycaster, hits));
@@ -91,6 +82,10 @@ export class OnCard {
     mesh.onBeforeRender = (renderer, ...others) => {
       this.#way.meet(renderer);
       onBeforeRender.call(mesh, renderer, ...others);
+    };
+    mesh.onBeforeShadow = (...given) => {
+      refreshShadow(given[5]);
+      onBeforeShadow?.apply(mesh, given);
     };
   }
 
@@ -101,8 +96,27 @@ export class OnCard {
     return {...processor.attributesOf(run), sphere: processor.boundsOf(run)};
   }
 
+  /**
+   * Makes the meshes' current materials follow the face. Those that others have as well, or meshes that are placed
+   * otherwise, are replaced by clones.
+   */
   follow() {
-    for (const {followers, meshes} of new Set(this.#groups.values())) followers.follow(meshes.flatMap(materialsOf));
+    const groups = new Set(this.#groups.values());
+    for (const {followers, meshes} of groups) followers.keep(meshes.flatMap(materialsOf));
+    for (const group of groups) {
+      for (const mesh of group.meshes) this.#separate(mesh, group);
+      group.followers.follow(group.meshes.flatMap(materialsOf));
+    }
+  }
+
+  #separate(mesh, {followers, clones}) {
+    const own = (material) => {
+      if (!this.#others.has(material) && !followers.isTaken(material)) return material;
+      if (!clones.has(material)) clones.set(material, this.#keep(followers.cloneOf(material, true)));
+      return clones.get(material);
+    };
+    const {material} = mesh, isMany = Array.isArray(material), all = [material].flat(), owned = all.map(own);
+    if (owned.some((each, k) => each !== all[k])) mesh.material = isMany ? owned : owned[0];
   }
 
   show(face) { this.#textures.update(face); }

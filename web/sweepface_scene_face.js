@@ -63,11 +63,20 @@ export class SceneFace extends movedByWeights(Object) {
     this.#own = objects.flatMap((object) => [object.skeleton, object.isInstancedMesh && object]).filter(Boolean);
     this.#shared = original?.#shared ?? {users: 0, resources: resourcesOf(objects, (each) => this.#parts.has(each))};
     ++this.#shared.users;
-    this.#evaluation.dress(objects, runOf, Boolean(original), face, () => (this[isGone] ? undefined : this[expression]));
+    try {
+      this.#evaluation.dress(objects, runOf, Boolean(original), face, () => (this[isGone] ? undefined : this[expression]));
+      this.#begin(face, !original);
+    } catch (error) {
+      this[release]();
+      throw error;
+    }
+  }
+
+  #begin(face, isPosed) {
     const index = new Map(face.names.map((name, k) => [name, k]));
     this[begin](face, this.#meshes.map((mesh) => {
       return {mesh, targets: this.#parts.get(mesh.geometry).names.map((name) => index.get(name) ?? -1)};
-    }), !original);
+    }), isPosed);
     this.update();
   }
 
@@ -96,6 +105,7 @@ export class SceneFace extends movedByWeights(Object) {
 
   [show]() {
     this.#evaluation.show(this.face);
+    if (this.#evaluation.changing.length === 0) return;
     for (const geometry of this.#parts.keys()) if (geometry.boundingBox) geometry.computeBoundingBox();
   }
 

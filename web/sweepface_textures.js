@@ -23,20 +23,30 @@ const numbersOf = ({image: {data}}) => new Int16Array(data.buffer, data.byteOffs
 
 /** The tables of positions, followed in the same textures by those of tangents. All clones of a face share the basis. */
 export class Textures {
+  #integers;
   #basis;
   #isGone = false;
 
   /** `integers` is {Data, perTexel} and the members to set on a texture that holds four 16-bit integers per texel. */
   constructor({positions, tangents}, integers) {
+    this.#integers = integers;
     this.between = 4 * positions.modes;
     this.end = this.between + 4 * tangents.modes;
-    const basis = texture(integers, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
-    this.#basis = {texture: basis, users: 1};
     this.modes = texture(integers, this.end);
     this.factor = 0;  // depends on the weights alone, and so is the same for both
+    if (!positions.basis) return;  // it is another's
+    const basis = texture(integers, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
+    this.#basis = {texture: basis, users: 1};
   }
 
   get basis() { return this.#basis.texture; }
+
+  /** Those of a clone. */
+  twin() {
+    const twin = new Textures({positions: {modes: this.between / 4}, tangents: {modes: (this.end - this.between) / 4}}, this.#integers);
+    twin.share(this);
+    return twin;
+  }
 
   share(original) {
     this.#basis = original.#basis;
@@ -94,26 +104,30 @@ function normalsOf(tangents, points) {
   return normals;
 }
 
-/** An attribute of every `stride` words the three from `at` on. */
-function taken(words, stride, at) {
-  const own = new Uint32Array(3 * words.length / stride);
-  for (let k = 0; k < own.length; k += 3) own.set(words.subarray(stride * k / 3 + at, stride * k / 3 + at + 3), k);
+/** An attribute of the three from `at` on of every `stride` numbers. */
+function taken(numbers, stride, at) {
+  const own = new numbers.constructor(3 * numbers.length / stride);
+  for (let k = 0; k < own.length; k += 3) own.set(numbers.subarray(stride * k / 3 + at, stride * k / 3 + at + 3), k);
   return new BufferAttribute(own, 3);
 }
 
 /**
- * The attributes of vertices that are these points of a face, an Uint32Array; `inOneBuffer` for meshes that have many
+ * The attributes of vertices that are these points of a face, an Uint32Array; `inFewBuffers` for meshes that have many
  * others, as WebGPU allows only eight buffers.
  */
-export function attributesOf(tables, points, inOneBuffer = false) {
-  const {positions: {neutral}, tangents} = tables, words = wordsOf(tables, points), places = new Float32Array(3 * points.length);
-  const buffer = new InterleavedBuffer(words, STRIDE);
-  points.forEach((point, v) => places.set(neutral.subarray(3 * point, 3 * point + 3), 3 * v));
-  return {
-    position: new BufferAttribute(places, 3),
-    normal: new BufferAttribute(normalsOf(tangents.neutral, points), 3),  // for materials that do not follow the face
-    ...Object.fromEntries(NAMES.map((name, k) => {
-      return [name, inOneBuffer ? new InterleavedBufferAttribute(buffer, 3, 3 * k) : taken(words, STRIDE, 3 * k)];
-    }))
+export function attributesOf(tables, points, inFewBuffers = false) {
+  const {positions: {neutral}, tangents} = tables, words = wordsOf(tables, points), normals = normalsOf(tangents.neutral, points);
+  const places = new Float32Array(6 * points.length);
+  points.forEach((point, v) => {
+    places.set(neutral.subarray(3 * point, 3 * point + 3), 6 * v);
+    places.set(normals.subarray(3 * v, 3 * v + 3), 6 * v + 3);
+  });
+  const split = (names, numbers) => {
+    const stride = 3 * names.length, buffer = new InterleavedBuffer(numbers, stride);
+    return names.map((name, k) => {
+      return [name, inFewBuffers ? new InterleavedBufferAttribute(buffer, 3, 3 * k) : taken(numbers, stride, 3 * k)];
+    });
   };
+  // Normals are for materials that do not follow the face.
+  return Object.fromEntries([...split(['position', 'normal'], places), ...split(NAMES, words)]);
 }

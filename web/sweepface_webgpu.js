@@ -64,17 +64,20 @@ const evaluated = (next) => Fn((builder) => {
   const [moved] = sumOf(place, 1), [along, across] = sumOf(tangentPlace, 2);
   const row = (name, sum) => unit(floats(attribute(name, 'uvec3')).add(sum.mul(scale(tangentPlace))));
   positionLocal.assign(positionGeometry.add(matrix('linear').mul(moved.mul(scale(place)))));
-  normalLocal.assign(unit(matrix('upright').mul(cross(row('sweepAlong', along), row('sweepAcross', across)))));
+  if (builder.hasGeometryAttribute('normal'))
+    normalLocal.assign(unit(matrix('upright').mul(cross(row('sweepAlong', along), row('sweepAcross', across)))));
+  // What the expression has moved would otherwise seem to move every frame.
+  const isFollowed = renderer.getMRT()?.has('velocity');
   // Once more, as they have placed the neutral; before 0.185 they come after this.
   const isToCome = Number.parseInt(REVISION) < 185;
   if (object.isSkinnedMesh && !isToCome) {
+    if (isFollowed) positionPrevious.assign(positionLocal);
     if (builder.hasGeometryAttribute('tangent')) tangentLocal.assign(tangentGeometry);
     skinning(object).toStack();
   }
   if (material.displacementMap) positionLocal.addAssign(displacement());
   if (object.isInstancedMesh && !isToCome) instancedMesh(object).toStack();
-  // Otherwise what the expression has moved would seem to move every frame.
-  if (renderer.getMRT()?.has('velocity')) positionPrevious.assign(positionLocal);
+  if (isFollowed && !object.isSkinnedMesh) positionPrevious.assign(positionLocal);
   return next ?? positionLocal;
 })();
 

@@ -177,7 +177,95 @@ test('materials that follow the face are on nothing else', inNode, async () => {
   assert.throws(() => face.update(), {message: /^The material 'blind' has no `#include <begin_vertex>`/});
   face.meshes[0].material = hat;
   face.update();
-  assert.ok(follows(hat));
+  assert.deepEqual([hat, face.meshes[0].material].map(follows), [false, true]);
+});
+
+test('materials of the face may go to any of its meshes', inNode, async () => {
+  const [, {face}] = await pair(), [lips, skin, eye] = face.meshes, materials = [lips, skin, eye].map(({material}) => material);
+  [lips.material, eye.material] = [eye.material, lips.material];
+  face.update();
+  const one = new three.MeshStandardMaterial({name: 'one'});
+  for (const mesh of face.meshes) mesh.material = one;
+  face.update();
+  assert.deepEqual([lips, skin, eye].map(({material}) => material.name), ['one', 'one', 'one']);
+  assert.equal(lips.material, skin.material);
+  assert.notEqual(lips.material, eye.material);
+  [lips, skin, eye].forEach((mesh, k) => { mesh.material = materials[k]; });
+  face.update();
+  assert.deepEqual([lips, skin, eye].map(({material}) => material), materials);
+});
+
+/** A material such as plugins make: its constructor changes the shader, by what it holds itself. */
+class Painted extends (three?.ShaderMaterial ?? Object) {
+  paint = 'fresh';
+
+  constructor() {
+    super({vertexShader: '#include <begin_vertex>', uniforms: {tint: {value: new three.Color()}}});
+    this.onBeforeCompile = (shader) => { shader.defines = {PAINT: this.paint}; };
+  }
+}
+
+test('clones of materials go on with the values of the original, and are themselves otherwise', inNode, async () => {
+  const {cloneScene} = await import('../sweepface_scene.js');
+  const [, model] = await pair(), [lips, skin, eye] = model.face.meshes, painted = new Painted();
+  skin.material.color.setHex(0xff8800);
+  assert.equal(eye.material.color.getHex(), 0xff8800);
+  lips.material = eye.material = painted;
+  model.face.update();
+  const twin = cloneScene(model).face.meshes[0].material;
+  for (const clone of [eye.material, twin]) {
+    painted.uniforms.tint.value.setHex(0x00ff00);
+    assert.equal(clone.uniforms.tint.value.getHex(), 0x00ff00);
+    clone.paint = 'dry';
+    const shader = {vertexShader: clone.vertexShader, uniforms: clone.uniforms};
+    clone.onBeforeCompile(shader);
+    assert.deepEqual(shader.defines, {PAINT: 'dry'});
+    assert.ok(shader.uniforms.sweepModes && shader.uniforms.tint);
+    assert.ok(!clone.uniforms.sweepModes && !painted.uniforms.sweepModes);
+  }
+});
+
+test('a material that takes away where vertices move says so', inNode, async () => {
+  const [, {face}] = await pair(), {error} = console, told = [];
+  face.meshes[0].material = Object.assign(new three.MeshBasicMaterial({name: 'own'}), {
+    onBeforeCompile(shader) { shader.vertexShader = shader.vertexShader.replace('#include <begin_vertex>', 'vec3 transformed;'); }
+  });
+  face.update();
+  console.error = (message) => told.push(message);
+  try {
+    face.meshes[0].material.onBeforeCompile({vertexShader: three.ShaderLib.basic.vertexShader, uniforms: {}});
+  } finally {
+    console.error = error;
+  }
+  assert.match(told.join(), /^The material 'own' shows the neutral, as its onBeforeCompile takes away `#include <begin_vertex>`/);
+});
+
+test('shadows are compiled again where holes come or go', inNode, async () => {
+  const [, {face}] = await pair(), [mesh] = face.meshes, depth = mesh.customDepthMaterial;
+  const cast = (changes) => {
+    const {version} = Object.assign(depth, changes);
+    mesh.onBeforeShadow(null, mesh, null, null, mesh.geometry, depth, null);
+    return depth.version > version;
+  };
+  const map = new three.Texture();
+  assert.deepEqual([{}, {alphaTest: 0.5}, {map}, {}, {alphaTest: 0.4}, {alphaTest: 0, map: null}].map(cast),
+                   [false, true, true, false, false, true]);
+});
+
+test('a skinned face leaves room for buffers of its own', inNode, async () => {
+  const [, {face}] = await pair(), buffers = Object.values(face.meshes[0].geometry.attributes).map((each) => each.data ?? each);
+  assert.equal(new Set(buffers).size, 5);  // positions and normals, what points into tables, texture coordinates, joints, weights
+});
+
+test('a clone that fails frees what it took', inNode, async () => {
+  const {cloneScene} = await import('../sweepface_scene.js');
+  const [, model] = await pair(), {face, scene} = model, [mesh] = face.meshes, {material} = mesh, gone = [];
+  scene.getObjectByName('hat').material.addEventListener('dispose', () => gone.push('hat'));
+  mesh.material = new three.ShaderMaterial({name: 'blind', vertexShader: ''});
+  assert.throws(() => cloneScene(model), {message: /^The material 'blind' has no/});
+  mesh.material = material;
+  face.dispose();
+  assert.deepEqual(gone, ['hat']);
 });
 
 test('a scene on the graphics card frees what was made for it', inNode, async () => {
