@@ -77,8 +77,10 @@ export class Followers {
     for (const each of this.#all) if (!materials.includes(each)) this.#release(each);
   }
 
+  has(material) { return this.#all.has(material); }
+
   /** Whether a material follows something else. */
-  isTaken(material) { return hooked.has(material) && !this.#all.has(material); }
+  isTaken(material) { return hooked.has(material) && !this.has(material); }
 
   /** Whether a material still has all the hooks that were put on it. */
   #isFollowing(material) {

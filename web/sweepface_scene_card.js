@@ -11,7 +11,7 @@ export class OnCard {
   #tables;
   #textures;
   #groups;            // of meshes that are placed alike, by run: {source, followers, meshes, clones}
-  #others;            // materials of what is not the face
+  #others;            // objects that are not the face
   #made = new Set();  // materials
   #standing = {};     // for rays: the face on a `processor`, and the expression that it was evaluated `for` last
 
@@ -55,7 +55,7 @@ export class OnCard {
    */
   dress(objects, runOf, isClone, face, poseOf) {
     this.#tables = undefined;  // all is in textures and attributes
-    this.#others = new Set(objects.filter((object) => !runOf(object)).flatMap(({material}) => material ?? []));
+    this.#others = objects.filter((object) => !runOf(object));
     for (const mesh of objects.filter(runOf)) {
       const run = runOf(mesh), {meshes, source} = this.#groups.get(run);
       meshes.push(mesh);
@@ -111,13 +111,15 @@ export class OnCard {
 
   #separate(mesh, {followers, clones}) {
     const own = (material) => {
-      if (!this.#others.has(material) && !followers.isTaken(material)) return material;
+      if (followers.has(material) || !(followers.isTaken(material) || this.#isElsewhere(material))) return material;
       if (!clones.has(material)) clones.set(material, this.#keep(followers.cloneOf(material, true)));
       return clones.get(material);
     };
     const {material} = mesh, isMany = Array.isArray(material), all = [material].flat(), owned = all.map(own);
     if (owned.some((each, k) => each !== all[k])) mesh.material = isMany ? owned : owned[0];
   }
+
+  #isElsewhere(material) { return this.#others.some((other) => [other.material].flat().includes(material)); }
 
   show(face) { this.#textures.update(face); }
 

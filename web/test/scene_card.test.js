@@ -181,15 +181,20 @@ test('materials that follow the face are on nothing else', inNode, async () => {
 });
 
 test('materials of the face may go to any of its meshes', inNode, async () => {
-  const [, {face}] = await pair(), [lips, skin, eye] = face.meshes, materials = [lips, skin, eye].map(({material}) => material);
+  const [, {scene, face}] = await pair(), [lips, skin, eye] = face.meshes;
+  const materials = [lips, skin, eye].map(({material}) => material);
   [lips.material, eye.material] = [eye.material, lips.material];
   face.update();
-  const one = new three.MeshStandardMaterial({name: 'one'});
+  const [one, two] = ['one', 'two'].map((name) => new three.MeshStandardMaterial({name}));
   for (const mesh of face.meshes) mesh.material = one;
   face.update();
   assert.deepEqual([lips, skin, eye].map(({material}) => material.name), ['one', 'one', 'one']);
   assert.equal(lips.material, skin.material);
   assert.notEqual(lips.material, eye.material);
+  scene.traverse((object) => { if (object.isMesh) object.material = two; });
+  face.update();
+  assert.equal(scene.getObjectByName('hat').material, two);
+  assert.ok([lips, skin, eye].every(({material}) => material !== two && material.name === 'two'));
   [lips, skin, eye].forEach((mesh, k) => { mesh.material = materials[k]; });
   face.update();
   assert.deepEqual([lips, skin, eye].map(({material}) => material), materials);
