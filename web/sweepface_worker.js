@@ -13,6 +13,7 @@ const sourceOf = (wasm) =>
   isGiven(wasm) && kindOf(wasm) !== 'WebAssembly.Module' && !bytesOf(wasm) ? urlOf(wasm).href : wasm;
 
 let worker, ending;
+let hasAnswered = false;
 let count = 0;
 const waiting = new Map();  // by the numbers of requests: {resolve, reject}
 
@@ -24,6 +25,7 @@ function end() {
 /** The worker's answer, or what went wrong with it. */
 function answer({number, error, ...given}) {
   const {resolve, reject} = waiting.get(number);
+  hasAnswered = true;
   waiting.delete(number);
   if (waiting.size === 0) ending = setTimeout(end, PATIENCE);
   if (error) reject(new Error(error)); else resolve(given);
@@ -32,13 +34,15 @@ function answer({number, error, ...given}) {
 function fail(event) {
   event.preventDefault?.();
   end();
-  const told = event.message ? `: ${event.message}` : '; see docs/javascript.md for bundlers';
-  for (const {reject} of waiting.values()) reject(new Error(`The worker that loads faces did not start${told}.`));
+  const [what, advice] = hasAnswered ? ['failed', ''] : ['did not start', '; see docs/javascript.md for bundlers'];
+  const why = event.message ? `: ${event.message}` : advice;
+  for (const {reject} of waiting.values()) reject(new Error(`The worker that loads faces ${what}${why}.`));
   waiting.clear();
 }
 
 function start() {
   if (!globalThis.Worker) throw new Error('There are no workers here; use Sweepface.load.');
+  hasAnswered = false;
   worker = new Worker(new URL('./sweepface_thread.js', import.meta.url), {type: 'module'});
   worker.addEventListener('message', ({data}) => answer(data));
   worker.addEventListener('error', fail);

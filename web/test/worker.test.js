@@ -119,6 +119,25 @@ test('a worker that does not start says so, once and again', options, () => visi
     }), /^The worker that loads faces did not start/);
 }));
 
+const failing = `addEventListener('message', ({data: {number}}) => {
+  if (number > 1) throw new Error('Out of luck');
+  postMessage({number, error: 'No face.'});
+});`;
+
+test('a worker that fails later says that, and the next load starts another', options, () => visit({
+  'sweepface_thread.js': (response) => response.setHeader('content-type', 'text/javascript').end(failing)
+}, async (page) => {
+  const told = await page.evaluate(async () => {
+    const messages = [];
+    for (let load = 0; load < 3; ++load)
+      await globalThis.loadInWorker(await globalThis.bytesOf('packed.sweep')).catch(({message}) => messages.push(message));
+    return messages;
+  });
+  assert.equal(told[0], 'No face.');
+  for (const message of [told[1], told[2]]) assert.match(message, /^The worker that loads faces (failed|did not start): .*Out of luck/);
+  assert.match(told[1], /faces failed/);
+}));
+
 test('where there are no workers it says so', async () => {
   await assert.rejects(loadInWorker(readFileSync(sample)), {message: 'There are no workers here; use Sweepface.load.'});
   await assert.rejects(loadInWorker('face.sweep'), {name: 'TypeError', message: /^Sweepface\.load needs the bytes/});
