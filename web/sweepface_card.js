@@ -51,7 +51,7 @@ export class CardMesh extends FaceMesh {
 
   onBeforeRender(renderer) { this.constructor[card].meet(renderer); }
 
-  onBeforeShadow(...[, , , , , material]) { refreshShadow(material); }
+  onBeforeShadow(...[, , , , , material]) { refreshShadow(this, material); }
 
   /** Makes the mesh's current materials, and no others, follow the face. */
   [follow]() { this.#followers.follow(materialsOf(this)); }

@@ -31,15 +31,19 @@ export function refuse(material, what) {
 }
 
 /**
- * Shadow materials get what makes holes in a surface from the material that it has, but three.js compiles them only once.
- * Call it before one is drawn.
+ * Materials that cast a mesh's shadow get what makes holes in a surface from the material that it has, but three.js compiles
+ * them only once. Call it before one is drawn.
  */
-const shapes = new WeakMap();
-export function refreshShadow(material) {
-  const shape = [material.map, material.alphaMap, material.displacementMap, material.alphaTest > 0].map(Boolean).join();
+export function refreshShadow({customDepthMaterial, customDistanceMaterial}, material) {
+  if (![customDepthMaterial, customDistanceMaterial].includes(material)) return;
+  const {map, alphaMap, displacementMap, alphaTest} = material;
+  const shape = [map, alphaMap, displacementMap, alphaTest > 0].map(Boolean).join();
   if (shapes.has(material) && shapes.get(material) !== shape) material.needsUpdate = true;
   shapes.set(material, shape);
 }
+
+/** What such a material was last compiled for. */
+const shapes = new WeakMap();
 
 const isValue = (it) => it?.isColor || it?.isVector2 || it?.isVector3 || it?.isVector4 || it?.isMatrix3 || it?.isEuler;
 

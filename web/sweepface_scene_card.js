@@ -84,7 +84,7 @@ export class OnCard {
       onBeforeRender.call(mesh, renderer, ...others);
     };
     mesh.onBeforeShadow = (...given) => {
-      refreshShadow(given[5]);
+      refreshShadow(mesh, given[5]);
       onBeforeShadow?.apply(mesh, given);
     };
   }
