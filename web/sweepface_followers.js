@@ -30,6 +30,9 @@ export function refuse(material, what) {
   throw new TypeError(`The material '${material.name || material.type}' ${what}.`);
 }
 
+/** For materials that cast shadows: what they were last compiled for. */
+const shapes = new WeakMap();
+
 /**
  * Materials that cast a mesh's shadow get what makes holes in a surface from the material that it has, but three.js compiles
  * them only once. Call it before one is drawn.
@@ -41,9 +44,6 @@ export function refreshShadow({customDepthMaterial, customDistanceMaterial}, mat
   if (shapes.has(material) && shapes.get(material) !== shape) material.needsUpdate = true;
   shapes.set(material, shape);
 }
-
-/** What such a material was last compiled for. */
-const shapes = new WeakMap();
 
 const isValue = (it) => it?.isColor || it?.isVector2 || it?.isVector3 || it?.isVector4 || it?.isMatrix3 || it?.isEuler;
 
