@@ -10,10 +10,11 @@ const blank = `<!doctype html><link rel="icon" href="data:,"><script type="impor
                "three/webgpu": "./node_modules/three/build/three.webgpu.js",
                "three/tsl": "./node_modules/three/build/three.tsl.js"}}</script>`;
 
-/** A model that moves by its skeleton, in a node that stands askew, and with a second pair of textures. */
-function file() {
-  const made = model();
-  made.json.nodes[1].rotation = [0, 0, 0.1, 0.995];
+/** A model whose skeleton stands askew; if it `isFlat`, without normals. */
+function file(isFlat) {
+  const made = model(), {nodes, meshes} = made.json;
+  nodes[1].rotation = [0, 0, 0.1, 0.995];
+  for (const {attributes} of isFlat ? meshes.flatMap(({primitives}) => primitives) : []) delete attributes.NORMAL;
   return readFileSync(converted(made));
 }
 
@@ -23,7 +24,7 @@ async function prepare(kind) {
   const {SweepfaceSceneLoader, cloneScene} = await import('./sweepface_scene.js');
   const {SweepfaceGpuMesh} = await import('./sweepface_gpu.js'), {SweepfaceMesh} = await import('./sweepface_three.js');
   const CardMesh = isNodes ? (await import('./sweepface_webgpu.js')).SweepfaceNodeMesh : SweepfaceGpuMesh;
-  const bytes = await (await fetch('./model.sweep')).arrayBuffer(), size = 256, canvas = document.createElement('canvas');
+  const bytesOf = async (name) => (await fetch(name)).arrayBuffer(), size = 256, canvas = document.createElement('canvas');
   const renderer = isNodes ? new THREE.WebGPURenderer({canvas, forceWebGL: kind === 'nodes in WebGL'})
                            : new THREE.WebGLRenderer({canvas});
   await renderer.init?.();
@@ -37,8 +38,9 @@ async function prepare(kind) {
   scene.add(light, new THREE.AmbientLight(0xffffff, 0.5));
   Object.assign(globalThis, {
     renderer, light, camera, cloneScene,
-    load: (mesh) => new SweepfaceSceneLoader().parseAsync(bytes, {name: 'model.sweep', mesh}),
-    both: () => Promise.all([SweepfaceMesh, CardMesh].map((mesh) => globalThis.load(mesh))),
+    both: (name = 'model.sweep') => Promise.all([SweepfaceMesh, CardMesh].map(async (mesh) => {
+      return new SweepfaceSceneLoader().parseAsync(await bytesOf(name), {name, mesh});
+    })),
     pose({scene, face}, jawOpen, smile, look) {
       face.setWeights({jawOpen, smile, look});
       face.update();
@@ -66,7 +68,7 @@ async function prepare(kind) {
   return renderer.backend?.isWebGPUBackend === true;
 }
 
-const files = {'blank.html': blank, 'model.sweep': !skip && file()}, options = {skip, timeout: 240_000};
+const files = {'blank.html': blank, ...(!skip && {'model.sweep': file(false), 'flat.sweep': file(true)})}, options = {skip, timeout: 240_000};
 
 /** Asserts that something changes what is seen, and pairs of pictures do not differ. */
 function assertAlike({moved, off}) {
@@ -107,6 +109,16 @@ for (const kind of ['WebGLRenderer', 'nodes in WebGPU', 'nodes in WebGL'])
         };
       });
       assertAlike(found);
+      assert.deepEqual(complaints, []);
+    });
+
+    await t.test('does without normals', async () => {
+      assertAlike(await page.evaluate(async () => {
+        const {both, draw, differ, pose} = globalThis, smooth = await both(), flat = await both('flat.sweep');
+        for (const model of [...smooth, ...flat]) pose(model, 1, 0.5, 1);
+        const [onCpu, onCard, other] = [await draw(flat[0]), await draw(flat[1]), await draw(smooth[0])];
+        return {moved: {shading: differ(onCpu, other)}, off: {flat: differ(onCpu, onCard)}};
+      }));
       assert.deepEqual(complaints, []);
     });
 
@@ -166,6 +178,7 @@ test('materials that follow the face are on nothing else', inNode, async () => {
   assert.deepEqual([lips, skin, eye, hat].map(({name}) => name), ['lips', 'skin', 'skin', 'skin']);
   assert.equal(new Set([lips, skin, eye, hat]).size, 4);  // eyes stand otherwise than the head
   assert.equal(eye, otherEye);
+  assert.ok(face.meshes.every(({frustumCulled}) => !frustumCulled));  // as bounds are those of the neutral
   const follows = (material) => Object.hasOwn(material, 'onBeforeCompile');
   assert.deepEqual([lips, skin, eye, hat].map(follows), [true, true, true, false]);
   const fresh = new three.MeshBasicMaterial();
