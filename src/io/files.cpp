@@ -52,7 +52,12 @@ bool isFull(int code) {
   return code == ENOSPC;
 }
 
+/// In bytes, or in the 16-bit units of Windows.
+constexpr std::size_t kLongestName = 255;
+
 std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
+  // Windows has several errors for that, Wine others.
+  if (path.filename().native().size() > kLongestName) code = ENAMETOOLONG;
   const bool isForbidden = code == EACCES || code == EPERM || code == EROFS;
   const char* const advice = isFull(code)           ? "; make room there, or choose another place"
                              : isForbidden          ? kInUse
