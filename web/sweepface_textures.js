@@ -43,7 +43,8 @@ export class Textures {
 
   /** Those of a clone. */
   twin() {
-    const twin = new Textures({positions: {modes: this.between / 4}, tangents: {modes: (this.end - this.between) / 4}}, this.#integers);
+    const positions = {modes: this.between / 4}, tangents = {modes: (this.end - this.between) / 4};
+    const twin = new Textures({positions, tangents}, this.#integers);
     twin.share(this);
     return twin;
   }
@@ -78,36 +79,27 @@ export function tablesOf(face) {
   return {positions, tangents};
 }
 
-/** Attributes that point into the textures, and those that hold the bits of a neutral's tangents: three words a vertex. */
-const NAMES = ['sweepPlace', 'sweepTangentPlace', 'sweepAlong', 'sweepAcross'], STRIDE = 3 * NAMES.length;
-
-/** The words of these attributes at points, [points x attributes x 3]. */
-function wordsOf({positions, tangents}, points) {
-  const bits = new Uint32Array(tangents.neutral.buffer, tangents.neutral.byteOffset, tangents.neutral.length);
-  const words = new Uint32Array(STRIDE * points.length);
+/** Copies the `size` numbers that each point has in `from`, to `at` in every `stride` numbers. */
+function spread(points, size, from, to, stride, at) {
   points.forEach((point, v) => {
-    words.set(positions.places.subarray(3 * point, 3 * point + 3), STRIDE * v);
-    words.set(tangents.places.subarray(3 * point, 3 * point + 3), STRIDE * v + 3);
-    words.set(bits.subarray(6 * point, 6 * point + 6), STRIDE * v + 6);
+    for (let k = 0; k < size; ++k) to[stride * v + at + k] = from[size * point + k];
   });
-  return words;
 }
 
-/** The normals of surfaces that have tangents [count x 2 x 3], at points. */
-function normalsOf(tangents, points) {
-  const normals = new Float32Array(3 * points.length), along = new Vector3(), across = new Vector3();
+/** Likewise the normals of surfaces that have tangents [count x 2 x 3]. */
+function spreadNormals(points, tangents, to, stride, at) {
+  const along = new Vector3(), across = new Vector3();
   points.forEach((point, v) => {
     along.fromArray(tangents, 6 * point).normalize();
     across.fromArray(tangents, 6 * point + 3).normalize();
-    along.cross(across).normalize().toArray(normals, 3 * v);
+    along.cross(across).normalize().toArray(to, stride * v + at);
   });
-  return normals;
 }
 
 /** An attribute of the three from `at` on of every `stride` numbers. */
-function taken(numbers, stride, at) {
+function separate(numbers, stride, at) {
   const own = new numbers.constructor(3 * numbers.length / stride);
-  for (let k = 0; k < own.length; k += 3) own.set(numbers.subarray(stride * k / 3 + at, stride * k / 3 + at + 3), k);
+  for (let k = 0; k < own.length; ++k) own[k] = numbers[stride * Math.floor(k / 3) + at + k % 3];
   return new BufferAttribute(own, 3);
 }
 
@@ -115,19 +107,23 @@ function taken(numbers, stride, at) {
  * The attributes of vertices that are these points of a face, an Uint32Array; `inFewBuffers` for meshes that have many
  * others, as WebGPU allows only eight buffers.
  */
-export function attributesOf(tables, points, inFewBuffers = false) {
-  const {positions: {neutral}, tangents} = tables, words = wordsOf(tables, points), normals = normalsOf(tangents.neutral, points);
-  const places = new Float32Array(6 * points.length);
-  points.forEach((point, v) => {
-    places.set(neutral.subarray(3 * point, 3 * point + 3), 6 * v);
-    places.set(normals.subarray(3 * v, 3 * v + 3), 6 * v + 3);
-  });
-  const split = (names, numbers) => {
+export function attributesOf({positions, tangents}, points, inFewBuffers = false) {
+  const floats = new Float32Array(6 * points.length), words = new Uint32Array(12 * points.length);
+  // Shaders get what they read in whole words, and turn tangents back into floats.
+  const bits = new Uint32Array(tangents.neutral.buffer, tangents.neutral.byteOffset, tangents.neutral.length);
+  spread(points, 3, positions.neutral, floats, 6, 0);
+  spreadNormals(points, tangents.neutral, floats, 6, 3);
+  spread(points, 3, positions.places, words, 12, 0);
+  spread(points, 3, tangents.places, words, 12, 3);
+  spread(points, 6, bits, words, 12, 6);
+  const named = (names, numbers) => {
     const stride = 3 * names.length, buffer = new InterleavedBuffer(numbers, stride);
     return names.map((name, k) => {
-      return [name, inFewBuffers ? new InterleavedBufferAttribute(buffer, 3, 3 * k) : taken(numbers, stride, 3 * k)];
+      return [name, inFewBuffers ? new InterleavedBufferAttribute(buffer, 3, 3 * k) : separate(numbers, stride, 3 * k)];
     });
   };
-  // Normals are for materials that do not follow the face.
-  return Object.fromEntries([...split(['position', 'normal'], places), ...split(NAMES, words)]);
+  return Object.fromEntries([
+    ...named(['position', 'normal'], floats),  // normals are for materials that do not follow the face
+    ...named(['sweepPlace', 'sweepTangentPlace', 'sweepAlong', 'sweepAcross'], words)
+  ]);
 }
