@@ -47,8 +47,8 @@ export class SweepfaceSceneLoader extends Loader<SweepfaceScene> {
   parseAsync(bytes: Bytes, options?: SceneOptions): Promise<SweepfaceScene>;
 }
 
-/** Another model like one that was loaded (or cloned), in the same pose, that moves by itself. It shares materials,
- * textures and what does not move. */
+/** Another model like one that was loaded (or cloned), in the same pose, that moves by itself. It shares materials (of a
+ * face on the graphics card their colours and other objects), textures and what does not move. */
 export function cloneScene(model: {scene: Group; face: SceneFace; animations: AnimationClip[]}): {
   scene: Group; face: SceneFace; animations: AnimationClip[];
 };

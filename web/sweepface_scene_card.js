@@ -117,6 +117,7 @@ export class OnCard {
     };
     const {material} = mesh, isMany = Array.isArray(material), all = [material].flat(), owned = all.map(own);
     if (owned.some((each, k) => each !== all[k])) mesh.material = isMany ? owned : owned[0];
+    for (const name of ['customDepthMaterial', 'customDistanceMaterial']) if (mesh[name]) mesh[name] = own(mesh[name]);
   }
 
   #isElsewhere(material) { return this.#others.some((other) => [other.material].flat().includes(material)); }

@@ -198,6 +198,9 @@ test('materials of the face may go to any of its meshes', inNode, async () => {
   const materials = [lips, skin, eye].map(({material}) => material);
   [lips.material, eye.material] = [eye.material, lips.material];
   face.update();
+  assert.equal(eye.material, materials[0]);
+  assert.notEqual(lips.material, materials[2]);  // which the other eye has
+  assert.equal(lips.material.name, 'skin');
   const [one, two] = ['one', 'two'].map((name) => new three.MeshStandardMaterial({name}));
   for (const mesh of face.meshes) mesh.material = one;
   face.update();
@@ -286,19 +289,61 @@ test('a clone that fails frees what it took', inNode, async () => {
   assert.deepEqual(gone, ['hat']);
 });
 
+test('what plugins put on meshes of the face stays', inNode, async () => {
+  const {GLTFLoader} = await import('three/addons/loaders/GLTFLoader.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  const depth = new three.MeshDepthMaterial(), called = [];
+  const gltfLoader = new GLTFLoader().register(() => ({
+    name: 'test',
+    async afterRoot({scene}) {
+      scene.traverse((mesh) => {
+        if (!mesh.isMesh) return;
+        mesh.customDepthMaterial = depth;
+        for (const name of ['onBeforeRender', 'onBeforeShadow']) mesh[name] = (...given) => called.push([name, given.length]);
+      });
+    }
+  }));
+  const {face} = await loadScene(readFileSync(converted(model())), {mesh: SweepfaceGpuMesh, gltfLoader}), [mesh] = face.meshes;
+  assert.equal(mesh.customDepthMaterial, depth);
+  assert.equal(depth.onBeforeCompile.length, 2);
+  mesh.onBeforeRender({}, 1, 2, 3, 4, 5);
+  mesh.onBeforeShadow({}, 1, 2, 3, 4, depth, 5);
+  assert.deepEqual(called, [['onBeforeRender', 6], ['onBeforeShadow', 7]]);
+});
+
+test('geometries on the graphics card hold the neutral, in the space of their meshes', inNode, async () => {
+  const models = await pair();
+  for (const {face} of models) {
+    face.reset();
+    face.update();
+  }
+  const [cpu, card] = models.map(({face}) => face.meshes.map(({geometry}) => geometry.attributes));
+  for (const name of ['position', 'normal'])
+    cpu.forEach((attributes, k) => {
+      const at = (list, v) => new three.Vector3().fromBufferAttribute(list, v), other = card[k][name];
+      for (let v = 0; v < other.count; ++v) assert.ok(at(attributes[name], v).distanceTo(at(other, v)) < 1e-3, `${name} ${k} ${v}`);
+    });
+});
+
 test('a scene on the graphics card frees what was made for it', inNode, async () => {
   const {cloneScene} = await import('../sweepface_scene.js');
   const [, model] = await pair(), twin = cloneScene(model), [, {material: skin}] = model.face.meshes, gone = [];
   const [, {material: theirs, customDepthMaterial: depth}] = twin.face.meshes;
   assert.notEqual(theirs, skin);
-  for (const [name, material] of Object.entries({skin, theirs, depth})) material.addEventListener('dispose', () => gone.push(name));
+  const read = (material) => {  // the textures that its shader reads
+    const shader = {vertexShader: '#include <begin_vertex>', uniforms: {}};
+    material.onBeforeCompile(shader);
+    return shader.uniforms;
+  };
+  const {sweepModes: {value: modes}, sweepBasis: {value: basis}} = read(theirs);
+  assert.equal(read(skin).sweepBasis.value, basis);
+  for (const [name, it] of Object.entries({skin, theirs, depth, modes, basis})) it.addEventListener('dispose', () => gone.push(name));
   twin.face.setWeights({jawOpen: 1});
   twin.face.update();
   assert.equal(model.face.weights.jawOpen, 0.25);
   twin.face.dispose();
-  assert.deepEqual([...new Set(gone)].sort(), ['depth', 'theirs']);
+  assert.deepEqual([...new Set(gone)].sort(), ['depth', 'modes', 'theirs']);
   model.face.dispose();
-  assert.ok(gone.includes('skin'));
+  assert.ok(gone.includes('skin') && gone.includes('basis'));
   assert.equal(skin.onBeforeCompile.length, 0);
 });
 
