@@ -4,7 +4,7 @@ import {card, Followers, refreshShadow, sourceOf} from './sweepface_followers.js
 import {geometryOf} from './sweepface_geometry.js';
 import {FaceMesh, materialsOfClone, meet, share} from './sweepface_mesh.js';
 import {expression, follow, show} from './sweepface_moved.js';
-import {attributesOf, tablesOf, Textures} from './sweepface_textures.js';
+import {attributesOf, tablesOf, texturesOf} from './sweepface_textures.js';
 
 /** The point that each vertex is, or copies. */
 const pointsOf = ({pointCount, vertexCount, copies}) =>
@@ -41,7 +41,7 @@ export class CardMesh extends FaceMesh {
     const tables = tablesOf(face), way = new.target[card];
     super(face, geometryOf(face, {}, attributesOf(tables, pointsOf(face))), materials);
     this.frustumCulled = false;  // bounds are those of the neutral
-    this.#textures = new Textures(tables, way.integers);
+    this.#textures = texturesOf(tables, way.integers);
     const source = sourceOf(this.#textures);
     this.#followers = new Followers(way, source);
     Object.assign(this, way.shadows());

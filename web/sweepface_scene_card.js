@@ -3,7 +3,7 @@ import {Matrix3} from 'three';
 import {materialsOf, whileStanding} from './sweepface_card.js';
 import {Followers, refreshShadow, sourceOf} from './sweepface_followers.js';
 import {OnProcessor, toMesh} from './sweepface_scene_processor.js';
-import {attributesOf, tablesOf, Textures} from './sweepface_textures.js';
+import {attributesOf, tablesOf, texturesOf} from './sweepface_textures.js';
 
 /** Has the vertex shaders of the meshes' materials evaluate the runs of a face. */
 export class OnCard {
@@ -19,7 +19,7 @@ export class OnCard {
   constructor(face, runs, way, original) {
     this.#way = way;
     this.#tables = original ? undefined : tablesOf(face);
-    this.#textures = original ? original.#textures.twin() : new Textures(this.#tables, way.integers);
+    this.#textures = original ? original.#textures.twin() : texturesOf(this.#tables, way.integers);
     const groups = new Map();
     this.#groups = new Map([...runs].map((run) => {
       const key = String(run.world.elements);

@@ -22,49 +22,38 @@ function texture({Data, perTexel, ...settings}, count, ...parts) {
 const numbersOf = ({image: {data}}) => new Int16Array(data.buffer, data.byteOffset, data.byteLength / 2);
 
 /** The tables of positions, followed in the same textures by those of tangents. All clones of a face share the basis. */
-export class Textures {
-  #integers;
-  #basis;
+class Textures {
+  #tables;  // {between, end, integers, basis}: where modes end, how textures hold integers, {texture, users}
   #isGone = false;
 
-  /** `integers` is {Data, perTexel} and the members to set on a texture that holds four 16-bit integers per texel. */
-  constructor({positions, tangents}, integers) {
-    this.#integers = integers;
-    this.between = 4 * positions.modes;
-    this.end = this.between + 4 * tangents.modes;
-    this.modes = texture(integers, this.end);
+  constructor(tables) {
+    this.#tables = tables;
+    this.modes = texture(tables.integers, tables.end);
     this.factor = 0;  // depends on the weights alone, and so is the same for both
-    if (!positions.basis) return;  // it is another's
-    const basis = texture(integers, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
-    this.#basis = {texture: basis, users: 1};
+    ++tables.basis.users;
   }
 
-  get basis() { return this.#basis.texture; }
+  get basis() { return this.#tables.basis.texture; }
 
   /** Those of a clone. */
-  twin() {
-    const positions = {modes: this.between / 4}, tangents = {modes: (this.end - this.between) / 4};
-    const twin = new Textures({positions, tangents}, this.#integers);
-    twin.share(this);
-    return twin;
-  }
+  twin() { return new Textures(this.#tables); }
 
   share(original) {
-    this.#basis = original.#basis;
-    ++this.#basis.users;
+    this.#tables = original.#tables;
+    ++this.#tables.basis.users;
   }
 
   update(face) {
-    const numbers = numbersOf(this.modes);
-    this.factor = face.shaderModes(numbers.subarray(0, this.between));
-    face.shaderModes(numbers.subarray(this.between, this.end), true);
+    const numbers = numbersOf(this.modes), {between, end} = this.#tables;
+    this.factor = face.shaderModes(numbers.subarray(0, between));
+    face.shaderModes(numbers.subarray(between, end), true);
     this.modes.needsUpdate = true;
   }
 
   dispose() {
     if (this.#isGone) return;
     this.#isGone = true;
-    if (--this.#basis.users === 0) this.basis.dispose();
+    if (--this.#tables.basis.users === 0) this.basis.dispose();
     this.modes.dispose();
   }
 }
@@ -77,6 +66,13 @@ export function tablesOf(face) {
     tangents.places[k + 1] += 64 * positions.modes;
   }
   return {positions, tangents};
+}
+
+/** `integers` is {Data, perTexel} and the members to set on a texture that holds four 16-bit integers per texel. */
+export function texturesOf({positions, tangents}, integers) {
+  const between = 4 * positions.modes, end = between + 4 * tangents.modes;
+  const basis = texture(integers, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
+  return new Textures({between, end, integers, basis: {texture: basis, users: 0}});
 }
 
 /** Copies the `size` numbers that each point has in `from`, to `at` in every `stride` numbers. */

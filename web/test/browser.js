@@ -22,6 +22,9 @@ export const skip = !chromium ? 'playwright-core is not installed; try npm ci'
 /** An empty page, for scripts that import three.js and the package. */
 export const blank = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">
   {"imports": {"three": "./node_modules/three/build/three.module.js",
+               "three/addons/": "./node_modules/three/examples/jsm/",
+               "three/webgpu": "./node_modules/three/build/three.webgpu.js",
+               "three/tsl": "./node_modules/three/build/three.tsl.js",
                "sweepface/three": "./sweepface_three.js"}}</script>`;
 
 /** Serves web/ and `files` by name; a function instead of a file answers the request itself. */

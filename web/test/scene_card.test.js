@@ -1,14 +1,8 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';
-import {skip, withPage} from './browser.js';
+import {blank, skip, withPage} from './browser.js';
 import {converted, loadScene, model} from './scene_file.js';
-
-const blank = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">
-  {"imports": {"three": "./node_modules/three/build/three.module.js",
-               "three/addons/": "./node_modules/three/examples/jsm/",
-               "three/webgpu": "./node_modules/three/build/three.webgpu.js",
-               "three/tsl": "./node_modules/three/build/three.tsl.js"}}</script>`;
 
 /** A model whose skeleton stands askew; if it `isFlat`, without normals. */
 function file(isFlat) {

@@ -1,13 +1,9 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';
-import {skip, withPage} from './browser.js';
+import {blank, skip, withPage} from './browser.js';
 import {sample} from './native.js';
 
-const blank = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">
-  {"imports": {"three": "./node_modules/three/build/three.module.js",
-               "three/webgpu": "./node_modules/three/build/three.webgpu.js",
-               "three/tsl": "./node_modules/three/build/three.tsl.js"}}</script>`;
 const files = {'blank.html': blank, 'face.sweep': readFileSync(process.env.SWEEPFACE_GPU_FACE ?? sample)};
 
 /** In the page: makes meshes, and pictures of them by WebGPURenderer with one of its backends. */
