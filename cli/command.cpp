@@ -120,6 +120,13 @@ CLI::Option* addSubdivide(CLI::App& app, int& levels) {
       ->type_name("N");
 }
 
+CLI::Option* addChosen(CLI::App& app, std::vector<std::string>& names) {
+  const char* const help =
+      "Of a .glb, .gltf or .vrm: the face is the mesh of this name, or what the object of this "
+      "name shows; once for each. Without, all that the scene shows and that has morph targets";
+  return oneEachTime(app.add_option("--mesh", names, help))->check(notEmpty())->type_name("NAME");
+}
+
 void addMeshes(CLI::App& app, MeshArguments& meshes) {
   app.add_option("NEUTRAL", meshes.neutral,
                  "The face at rest, an .obj or .ply file; or a face with its expressions, a .glb, "
@@ -130,6 +137,7 @@ void addMeshes(CLI::App& app, MeshArguments& meshes) {
                  "Its expressions: .obj or .ply files with the same vertices in the same order, or "
                  "folders of them; each is named after its file")
       ->type_name("");
+  addChosen(app, meshes.chosen);
   addSubdivide(app, meshes.subdivisions);
 }
 
@@ -365,7 +373,7 @@ Result<RigSource> readCages(const MeshArguments& meshes, ProgressBar& bar, bool 
   const auto show = [&](std::size_t done, std::size_t total) {
     bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
   };
-  return readSource(utf8Path(meshes.neutral), paths, show, withScene);
+  return readSource(utf8Path(meshes.neutral), paths, show, {withScene, meshes.chosen});
 }
 
 Result<RigSource> subdivided(RigSource source, const MeshArguments& meshes) {

@@ -68,11 +68,13 @@ CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
 struct MeshArguments {
   std::string neutral;
   std::vector<std::string> targets;
-  int subdivisions = 0;  ///< levels of subdivide() before they are used
+  std::vector<std::string> chosen;  ///< names of the meshes that are the face
+  int subdivisions = 0;             ///< levels of subdivide() before they are used
 
   std::vector<std::string> files() const;
 };
 void addMeshes(CLI::App& app, MeshArguments& meshes);
+CLI::Option* addChosen(CLI::App& app, std::vector<std::string>& names);
 CLI::Option* addSubdivide(CLI::App& app, int& levels);
 void addThreads(CLI::App& app, int& threads);
 void addStrip(CLI::App& app, std::string& strip);

@@ -38,6 +38,7 @@ void addOptions(CLI::App& app, RenderArguments& a) {
          "Show the meshes that it was made from beside it: the neutral, then expressions or "
          "folders of them")
       ->type_name("NEUTRAL [TARGET...]");
+  addChosen(app, a.chosen)->needs("--compare");
   addSubdivide(app, a.subdivisions)->needs("--compare");
   CLI::Option* to = app.add_option("--to", a.to, "Show the way from one expression to this one")
                         ->type_name("NAME=W,...");

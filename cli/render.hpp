@@ -13,7 +13,7 @@ namespace sweepface::cli {
 struct RenderArguments {
   std::string face, output, weights, views = "front", style = "shaded", size, from, close;
   std::optional<std::string> to;
-  std::vector<std::string> compare, laws, boxes;
+  std::vector<std::string> compare, laws, boxes, chosen;
   FollowingArguments following;
   int lod = 0, frames = 5, subdivisions = 0;
   bool quiet = false;

@@ -39,8 +39,10 @@ class ExpressionPage {
 
   Result<Image> besideMeshes(const Weights& weights) {
     const std::vector<std::string>& paths = what_.arguments.compare;
-    const MeshArguments meshes{
-        paths.front(), {paths.begin() + 1, paths.end()}, what_.arguments.subdivisions};
+    const MeshArguments meshes{paths.front(),
+                               {paths.begin() + 1, paths.end()},
+                               what_.arguments.chosen,
+                               what_.arguments.subdivisions};
     const Result<RigSource> read = [&] {
       ProgressBar bar(what_.arguments.quiet);
       return readMeshes(meshes, bar);

@@ -97,16 +97,21 @@ RigSource subdivided(const RigSource& meshes, int levels) {
   return {std::move(limit.rig), {}, {}};
 }
 
-RigSource readMeshes(const std::filesystem::path& neutral, const py::object& targets) {
+RigSource readMeshes(const std::filesystem::path& neutral, const py::object& targets,
+                     const py::object& meshes) {
   using Paths = std::vector<std::filesystem::path>;
   constexpr const char* kWhat = "The targets";
   const bool isOne = py::isinstance<py::str>(targets) || py::hasattr(targets, "__fspath__");
   const Paths paths = isOne ? Paths{as<std::filesystem::path>(targets, kWhat, "paths")}
                             : as<Paths>(targets, kWhat, "paths");
-  auto meshes = valueOf(released([&] { return readSource(neutral, paths); }));
-  warn(meshes.faceWarnings);
-  warn(meshes.warnings);
-  return meshes;
+  SourceOptions options;
+  options.meshes = py::isinstance<py::str>(meshes)
+                       ? std::vector{as<std::string>(meshes, "meshes", "names")}
+                       : as<std::vector<std::string>>(meshes, "meshes", "names");
+  auto source = valueOf(released([&] { return readSource(neutral, paths, {}, options); }));
+  warn(source.faceWarnings);
+  warn(source.warnings);
+  return source;
 }
 
 py::list facesOf(const Polygons& polygons) {
@@ -180,8 +185,11 @@ void addMeshes(py::module_& m) {
                            s.rig.targets.size());
       });
   m.def("read_meshes", &readMeshes, py::arg("neutral"), py::arg("targets") = py::tuple(),
+        py::kw_only(), py::arg("meshes") = py::tuple(),
         "Reads an .obj or .ply file and its targets, a path or several: files, each named after "
-        "itself, or folders of them; or a .glb, .gltf or .vrm file, which holds its targets.");
+        "itself, or folders of them; or a .glb, .gltf or .vrm file, which holds its targets. Of "
+        "such a file, the face is the meshes, or what the objects show, whose names are in meshes "
+        "(one or several), if there are any.");
 }
 
 }  // namespace sweepface::python

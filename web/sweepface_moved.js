@@ -24,11 +24,13 @@ export const movedByWeights = (Base) => class extends Base {
 
   /**
    * `meshes` have influences, the k-th of the target number `targets[k]`, which is -1 if the face has no such target.
-   * If `isPosed`, the face takes its weights from these.
+   * They move the face, unless they only follow it. If `isPosed`, the face takes its weights from these.
    */
   [begin](face, meshes, isPosed = false) {
     this.face = face;
-    this.#followers = meshes.map(({mesh, targets}) => ({mesh, targets, told: targets.map(() => 0)}));
+    this.#followers = meshes.map(({mesh, targets, onlyFollows = false}) => {
+      return {mesh, targets, onlyFollows, told: targets.map(() => 0)};
+    });
     this.#moving = face.advance(0);
     if (isPosed) this[takeInfluences]();
     this.#tellInfluences();
@@ -85,8 +87,8 @@ export const movedByWeights = (Base) => class extends Base {
   /** Sets the weights whose influences others have set. Ignores values that are no weights, which others may write. */
   [takeInfluences]() {
     const set = [];
-    for (const {mesh: {morphTargetInfluences: influences}, targets, told} of this.#followers)
-      for (let k = 0; influences && k < told.length; ++k)
+    for (const {mesh: {morphTargetInfluences: influences}, targets, onlyFollows, told} of this.#followers)
+      for (let k = 0; influences && !onlyFollows && k < told.length; ++k)
         if (influences[k] !== told[k] && targets[k] >= 0 && isWeight(influences[k])) set.push([targets[k], influences[k]]);
     if (set.length === 0) return;
     const {names} = this.face;

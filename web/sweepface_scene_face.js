@@ -15,6 +15,14 @@ function objectsIn(scenes) {
   return found;
 }
 
+/** The names of an object's influences, or undefined if it has none. */
+function namesOf({morphTargetDictionary: dictionary, morphTargetInfluences: influences}) {
+  if (!dictionary || !influences) return undefined;
+  const names = influences.map(() => undefined);
+  for (const [name, k] of Object.entries(dictionary)) if (k in names) names[k] = name;
+  return names;
+}
+
 /** Geometries, materials and their textures, all of which renderers hold on to. */
 function resourcesOf(objects, isOwn) {
   const found = new Set();
@@ -65,18 +73,20 @@ export class SceneFace extends movedByWeights(Object) {
     ++this.#shared.users;
     try {
       this.#evaluation.dress(objects, runOf, Boolean(original), face, () => (this[isGone] ? undefined : this[expression]));
-      this.#begin(face, !original);
+      this.#begin(face, objects, !original);
     } catch (error) {
       this[release]();
       throw error;
     }
   }
 
-  #begin(face, isPosed) {
+  #begin(face, objects, isPosed) {
     const index = new Map(face.names.map((name, k) => [name, k]));
-    this[begin](face, this.#meshes.map((mesh) => {
-      return {mesh, targets: this.#parts.get(mesh.geometry).names.map((name) => index.get(name) ?? -1)};
-    }), isPosed);
+    const numbers = (names) => names.map((name) => index.get(name) ?? -1);
+    const meshes = this.#meshes.map((mesh) => ({mesh, targets: numbers(this.#parts.get(mesh.geometry).names)}));
+    const others = objects.filter((object) => namesOf(object) && !this.#meshes.includes(object))
+        .map((mesh) => ({mesh, targets: numbers(namesOf(mesh)), onlyFollows: true}));
+    this[begin](face, [...meshes, ...others], isPosed);
     this.update();
   }
 

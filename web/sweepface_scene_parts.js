@@ -62,6 +62,15 @@ function targetNames(mesh, primitive) {
   });
 }
 
+/** The numbers of the meshes that were chosen as the face, or undefined. */
+function choiceIn({extensions, meshes = []}) {
+  const choice = extensions?.SWEEPFACE_face;
+  if (!choice) return undefined;
+  const isMesh = (m) => Number.isInteger(m) && m >= 0 && m < meshes.length;
+  if (!Array.isArray(choice.meshes) || !choice.meshes.every(isMesh)) throw new RangeError();
+  return new Set(choice.meshes);
+}
+
 /** How many vertices an attribute has. */
 const countOf = (json, {attributes}) => json.accessors[attributes.POSITION].count;
 
@@ -71,10 +80,13 @@ const countOf = (json, {attributes}) => json.accessors[attributes.POSITION].coun
  * mesh stands in the scene.
  */
 export function partsOf(json) {
-  const meshes = listOf(json, 'meshes'), placed = placements(json);
-  const isFaced = meshes.some(({primitives}) => primitives.some((each) => isTriangles(each) && morphs(each)));
+  const meshes = listOf(json, 'meshes'), placed = placements(json), chosen = choiceIn(json);
+  const isMorphing = ({primitives}) => primitives.some((each) => isTriangles(each) && morphs(each));
+  const isAnyMorphing = meshes.some(isMorphing);
   let vertices = 0;
   const parts = meshes.flatMap((mesh, m) => {
+    if (chosen && !chosen.has(m)) return [];
+    const isFaced = chosen ? isMorphing(mesh) : isAnyMorphing;
     const runs = new Map(), {world = new Matrix4(), mirrors = false} = placed[m] ?? {};
     let names;
     return mesh.primitives.flatMap((primitive, p) => {

@@ -18,10 +18,9 @@ namespace sweepface {
 /// The rig in a .glb or .gltf file: all primitives that have morph targets, or all primitives if
 /// none has. Its vertices are those of the primitives, one after another, in the scene's space.
 /// Quads are recovered from triangles. Messages call the file `name`. External buffers and images
-/// are read only from `folder`, and not at all if that is empty. Without `withScene`, what the file
-/// holds besides is neither checked nor returned.
+/// are read only from `folder`, and not at all if that is empty.
 Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
-                            const std::filesystem::path& folder, bool withScene = true);
+                            const std::filesystem::path& folder, const SourceOptions& options = {});
 
 /// The weights of morph targets in an animation: the first that has any, or the one of that name.
 /// A frame for every key; curves are cut into straight lines of a 120th of a second.

@@ -33,6 +33,15 @@ Result<MeshRig> readRig(const std::filesystem::path& neutral,
                         std::span<const std::filesystem::path> targets,
                         const ReadProgress& progress = {});
 
+/// What is read of a file.
+struct SourceOptions {
+  /// Whether what a file holds besides the rig is checked and returned.
+  bool withScene = true;
+  /// Of a .glb or .gltf: the face is only what nodes of these names show, and those below them, or
+  /// meshes of these names. Empty: what docs/glb.md says.
+  std::vector<std::string> meshes{};
+};
+
 /// A rig as files hold it, and what else they hold.
 struct RigSource {
   MeshRig rig;
@@ -45,11 +54,10 @@ struct RigSource {
 };
 
 /// The same from any files: a single .glb or .gltf, which holds its targets, or files as in
-/// readRig. Where all faces are triangles, pairs of them become quads (docs/quads.md). Without
-/// `withScene`, what a file holds besides the rig is neither checked nor returned.
+/// readRig. Where all faces are triangles, pairs of them become quads (docs/quads.md).
 Result<RigSource> readSource(const std::filesystem::path& neutral,
                              std::span<const std::filesystem::path> targets,
-                             const ReadProgress& progress = {}, bool withScene = true);
+                             const ReadProgress& progress = {}, const SourceOptions& options = {});
 
 /// What formatObj writes.
 struct ObjOutput {

@@ -136,12 +136,11 @@ Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
     const Rig& rig, const MeshRig& source) {
   if (!rig.knowsTargets())
     return fail("the targets of the face are not decoded yet; decode them before it is measured");
-  const std::size_t vertices = rig.source.gridVertex.size(),
-                    given = source.neutral.positions.size();
-  if (given != vertices)
-    return fail("the neutral has ", given, " vertices, the model was made from ", vertices,
-                "; give the mesh it was converted from",
-                given < vertices ? ", subdivided if it was" : "");
+  const std::size_t vertices = rig.source.gridVertex.size();
+  if (source.neutral.positions.size() != vertices)
+    return fail("the neutral has ", source.neutral.positions.size(),
+                " vertices, the model was made from ", vertices,
+                "; give the mesh it was converted from, chosen and subdivided in the same way");
   std::vector<std::pair<Weights, const std::vector<Vec3>*>> shapes;
   shapes.emplace_back(Weights(rig.targets.size(), 0.0), &source.neutral.positions);
   for (const MeshTarget& t : source.targets) {

@@ -9,6 +9,7 @@
 #include "sweepface/keys.hpp"
 
 #include "gltf/head_track.hpp"
+#include "gltf/moved_targets.hpp"
 #include "io/single.hpp"
 
 namespace sweepface::gltf {
@@ -74,13 +75,19 @@ Keys columnsOf(const CubicKeys& all, const std::vector<std::size_t>& targets) {
   return keys;
 }
 
-/// Adds a column of zeros for every target that is not known.
-void widen(Keys& keys, const std::vector<bool>& isKnown) {
+/// Whether any targets move with the rig's.
+bool movesAny(const std::vector<Index>& moved) {
+  return std::ranges::any_of(moved, [](Index target) { return target >= 0; });
+}
+
+/// Adds a column for every target that does not move (-1): it stays as it rests.
+void widen(Keys& keys, const std::vector<Index>& moved, const std::vector<double>& rest) {
   for (auto* const list : {&keys.in, &keys.values, &keys.out}) {
     if (list->empty()) continue;
     std::vector<double> wide;
     for (auto next = list->begin(); next != list->end();)
-      for (const bool known : isKnown) wide.push_back(known ? *next++ : 0);
+      for (std::size_t t = 0; t < moved.size(); ++t)
+        wide.push_back(moved[t] >= 0 ? *next++ : list == &keys.values ? rest[t] : 0);
     *list = std::move(wide);
   }
 }
@@ -109,7 +116,7 @@ bool increase(const std::vector<double>& times) { return sameAsBefore(times) == 
 class Animator {
  public:
   Animator(BoundScene& scene, const GlbOptions& options, Builder& builder)
-      : scene_(scene), options_(options), builder_(builder) {}
+      : scene_(scene), moved_(movedTargets(scene)), options_(options), builder_(builder) {}
 
   Result<void> run() {
     std::string name = options_.animationName;
@@ -123,11 +130,9 @@ class Animator {
     if (few_ && 3 * few_->times.size() > options_.clip->times.size()) few_.reset();
     animation_ = {
         {"name", freeName(name)}, {"channels", Json::array()}, {"samplers", Json::array()}};
-    const std::vector<Index> shown = shownMeshes(scene_);
-    const bool moves = options_.motion || options_.clip;
-    for (std::size_t n = 0; n < shown.size() && moves; ++n)
-      if (shown[n] >= 0)
-        if (auto ok = addNode(n, shown[n]); !ok) return ok;
+    if (options_.motion || options_.clip)
+      for (std::size_t n = 0; n < scene_.document.list("nodes").size(); ++n)
+        if (auto ok = addNode(n); !ok) return ok;
     if (animation_["channels"].empty() && !options_.head) return nothingToMove();
     if (options_.head)
       if (auto ok = addHead(); !ok) return ok;
@@ -149,11 +154,13 @@ class Animator {
     return free;
   }
 
-  Result<void> addNode(std::size_t node, Index mesh) {
-    if (std::ranges::none_of(scene_.parts.meshes[mesh].targets,
-                             [&](std::size_t t) { return scene_.targets[t] >= 0; }))
-      return {};
-    const auto sampler = samplerOf(mesh);
+  /// Moves the mesh that a node shows, if it has targets to move.
+  Result<void> addNode(std::size_t node) {
+    const Json& json = scene_.document.list("nodes")[node];
+    const auto mesh = findIndex(json, "mesh", moved_.size());
+    if (!mesh || !movesAny(moved_[*mesh])) return {};
+    const Json& posed = find(json, "weights") ? json : scene_.document.list("meshes")[*mesh];
+    const auto sampler = samplerOf(*mesh, restOf(posed, moved_[*mesh]));
     if (!sampler) return std::unexpected(sampler.error());
     animation_["channels"].push_back(
         {{"sampler", *sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
@@ -199,18 +206,24 @@ class Animator {
         "fast; play it in less time, or with smaller weights.");
   }
 
-  Result<std::size_t> samplerOf(Index mesh) {
-    if (const auto known = samplers_.find(mesh); known != samplers_.end()) return known->second;
+  /// The weights that targets keep where the animation does not move them.
+  static std::vector<double> restOf(const Json& posed, const std::vector<Index>& moved) {
+    std::vector<double> rest = weightsOf(posed, moved.size());
+    for (std::size_t t = 0; t < moved.size(); ++t)
+      if (moved[t] >= 0) rest[t] = 0;
+    return rest;
+  }
+
+  Result<std::size_t> samplerOf(std::size_t mesh, const std::vector<double>& rest) {
+    const auto known = samplers_.find({mesh, rest});
+    if (known != samplers_.end()) return known->second;
     std::vector<std::size_t> targets;
-    std::vector<bool> isKnown;
-    for (const std::size_t t : scene_.parts.meshes[mesh].targets) {
-      isKnown.push_back(scene_.targets[t] >= 0);
-      if (isKnown.back()) targets.push_back(static_cast<std::size_t>(scene_.targets[t]));
-    }
+    for (const Index target : moved_[mesh])
+      if (target >= 0) targets.push_back(static_cast<std::size_t>(target));
     Keys keys = options_.motion ? exactKeys(*options_.motion, targets)
                 : few_          ? columnsOf(*few_, targets)
                                 : framesOf(*options_.clip, targets);
-    widen(keys, isKnown);
+    widen(keys, moved_[mesh], rest);
     const std::vector<double> values = interleaved(keys);
     if (!io::areSingle(keys.times) || !increase(keys.times) || !io::areSingle(values))
       return beyondFloats(keys.times);
@@ -222,16 +235,17 @@ class Animator {
     animation_["samplers"].push_back({{"input", *input_},
                                       {"interpolation", keys.cubic ? "CUBICSPLINE" : "LINEAR"},
                                       {"output", builder_.add(pack(values, 1), Use::other)}});
-    return samplers_[mesh] = animation_["samplers"].size() - 1;
+    return samplers_[{mesh, rest}] = animation_["samplers"].size() - 1;
   }
 
   BoundScene& scene_;
+  std::vector<std::vector<Index>> moved_;  // [meshes][targets]
   const GlbOptions& options_;
   Builder& builder_;
   Json animation_;
-  std::optional<CubicKeys> few_;           // of a clip, if wanted
-  std::optional<std::size_t> input_;       // the times, the same for all meshes
-  std::map<Index, std::size_t> samplers_;  // of meshes
+  std::optional<CubicKeys> few_;      // of a clip, if wanted
+  std::optional<std::size_t> input_;  // the times, the same for all meshes
+  std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> samplers_;  // by mesh and rest
 };
 
 }  // namespace
@@ -241,19 +255,20 @@ Result<void> addAnimation(BoundScene& scene, const GlbOptions& options, Builder&
 }
 
 void setWeights(BoundScene& scene, const std::vector<double>& weights) {
+  const std::vector<std::vector<Index>> moved = movedTargets(scene);
+  const auto set = [&](Json& holder, const std::vector<Index>& targets) {
+    if (!movesAny(targets)) return;
+    std::vector<double> list = weightsOf(holder, targets.size());
+    for (std::size_t t = 0; t < targets.size(); ++t)
+      if (targets[t] >= 0) list[t] = weights[targets[t]];
+    holder["weights"] = list;
+  };
   Json& json = scene.document.json;
-  for (const RigMesh& mesh : scene.parts.meshes) {
-    if (mesh.targets.empty()) continue;
-    Json list = Json::array();
-    for (const std::size_t t : mesh.targets)
-      list.push_back(scene.targets[t] < 0 ? 0 : weights[scene.targets[t]]);
-    json["meshes"][mesh.mesh]["weights"] = std::move(list);
-  }
-  // A node's weights would override its mesh's.
-  const std::vector<Index> shown = shownMeshes(scene);
-  for (std::size_t n = 0; n < shown.size(); ++n)
-    if (shown[n] >= 0 && !scene.parts.meshes[shown[n]].targets.empty())
-      json["nodes"][n].erase("weights");
+  for (std::size_t m = 0; m < moved.size(); ++m)
+    set(json["meshes"][m], moved[m]);
+  for (std::size_t n = 0; n < scene.document.list("nodes").size(); ++n)
+    if (Json& node = json["nodes"][n]; find(node, "weights"))  // which override those of its mesh
+      if (const auto mesh = findIndex(node, "mesh", moved.size())) set(node, moved[*mesh]);
 }
 
 }  // namespace sweepface::gltf

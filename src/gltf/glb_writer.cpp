@@ -6,6 +6,7 @@
 
 #include "gltf/animation.hpp"
 #include "gltf/binary.hpp"
+#include "gltf/chosen_meshes.hpp"
 #include "gltf/fine_mesh.hpp"
 #include "gltf/quantize.hpp"
 #include "io/rig_output.hpp"
@@ -135,6 +136,7 @@ class GlbWriter {
   /// `touched` are views that hold what the source's vertices had.
   Result<std::string> finish(const std::vector<bool>& touched) {
     Document& document = scene_.document;
+    forgetChoice(document.json);
     document.json["asset"]["generator"] = "sweepface " SWEEPFACE_VERSION;
     Json& buffers = document.json["buffers"];
     if (!buffers.is_array() || buffers.empty()) buffers = Json::array({Json::object()});

@@ -1,5 +1,6 @@
 #include "gltf/left_out.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "gltf/nodes.hpp"
@@ -17,6 +18,13 @@ std::vector<std::size_t> timesShown(const Document& document) {
     if (const auto mesh = findIndex(nodes[n], "mesh", times.size()); mesh && isShown[n])
       ++times[*mesh];
   return times;
+}
+
+/// Whether a mesh has targets.
+bool morphs(const Json& mesh) {
+  return std::ranges::any_of(listOf(mesh, "primitives"), [](const Json& primitive) {
+    return !listOf(primitive, "targets").empty();
+  });
 }
 
 }  // namespace
@@ -41,7 +49,8 @@ std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
     for (const std::size_t p : others[mesh.mesh]) still.push_back(placeOf(document, mesh.mesh, p));
   }
   for (std::size_t m = 0; m < times.size(); ++m) {
-    if (!isOfFace[m] && times[m] > 0) still.push_back(placeOf(document, m));
+    if (!isOfFace[m] && times[m] > 0 && !morphs(document.list("meshes")[m]))
+      still.push_back(placeOf(document, m));
     if (isOfFace[m] && times[m] > 1) again.push_back(placeOf(document, m));
   }
   constexpr std::size_t kMost = 3;

@@ -69,6 +69,11 @@ Result<std::vector<std::size_t>> downwards(const std::vector<std::size_t>& paren
   return fail("its nodes are children of each other in a circle; export the file again.");
 }
 
+void addRoots(const Document& document, const Json& scene, std::vector<std::size_t>& roots) {
+  for (const Json& entry : listOf(scene, "nodes"))
+    if (const auto node = asIndex(entry, document.list("nodes").size())) roots.push_back(*node);
+}
+
 }  // namespace
 
 Result<std::vector<Affine>> worldMatrices(const Document& document) {
@@ -87,23 +92,33 @@ Result<std::vector<Affine>> worldMatrices(const Document& document) {
   return world;
 }
 
-std::vector<bool> nodesOfScenes(const Document& document) {
-  const std::size_t count = document.list("nodes").size();
-  const Json& scenes = document.list("scenes");
-  if (scenes.empty()) return std::vector<bool>(count, true);
-  std::vector<bool> found(count);
-  std::vector<std::size_t> nodes;
-  const auto add = [&](const Json& list) {
-    for (const Json& entry : list)
-      if (const auto node = asIndex(entry, count); node && !found[*node]) {
-        found[*node] = true;
-        nodes.push_back(*node);
+std::vector<bool> nodesBelow(const Document& document, std::vector<std::size_t> roots) {
+  const Json& nodes = document.list("nodes");
+  std::vector<bool> found(nodes.size());
+  for (const std::size_t root : roots) found[root] = true;
+  for (std::size_t k = 0; k < roots.size(); ++k)
+    for (const Json& entry : listOf(nodes[roots[k]], "children"))
+      if (const auto child = asIndex(entry, nodes.size()); child && !found[*child]) {
+        found[*child] = true;
+        roots.push_back(*child);
       }
-  };
-  for (const Json& scene : scenes) add(listOf(scene, "nodes"));
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    add(listOf(document.list("nodes")[nodes[k]], "children"));
   return found;
+}
+
+std::vector<bool> nodesOfScenes(const Document& document) {
+  const Json& scenes = document.list("scenes");
+  if (scenes.empty()) return std::vector<bool>(document.list("nodes").size(), true);
+  std::vector<std::size_t> roots;
+  for (const Json& scene : scenes) addRoots(document, scene, roots);
+  return nodesBelow(document, std::move(roots));
+}
+
+std::vector<bool> shownNodes(const Document& document) {
+  const Json& scenes = document.list("scenes");
+  if (scenes.empty()) return nodesOfScenes(document);
+  std::vector<std::size_t> roots;
+  addRoots(document, scenes[findIndex(document.json, "scene", scenes.size()).value_or(0)], roots);
+  return nodesBelow(document, std::move(roots));
 }
 
 }  // namespace sweepface::gltf

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "codec/utf8.hpp"
+#include "gltf/chosen_meshes.hpp"
 #include "gltf/nodes.hpp"
 #include "io/text.hpp"
 
@@ -16,6 +17,14 @@ std::string placeOf(const Document& document, std::size_t mesh) {
   const Json* const name = find(document.list("meshes")[mesh], "name");
   if (!name || !name->is_string()) return fmt::format("mesh {}", mesh);
   return fmt::format("mesh {} {}", mesh, io::inQuotes(name->get_ref<const std::string&>()));
+}
+
+const Json* targetNames(const Json& mesh, std::size_t primitive) {
+  for (const Json* const holder : {&mesh, &listOf(mesh, "primitives")[primitive]})
+    if (const Json* const extras = find(*holder, "extras"))
+      if (const Json* const list = find(*extras, "targetNames"); list && list->is_array())
+        return list;
+  return nullptr;
 }
 
 namespace {
@@ -61,10 +70,11 @@ class PartFinder {
   Result<Parts> find() {
     const auto placed = placements(document_);
     if (!placed) return std::unexpected(placed.error());
-    const auto morphing = anyTargets();
-    if (!morphing) return std::unexpected(morphing.error());
+    const auto isOfFace = facePrimitives();
+    if (!isOfFace) return std::unexpected(isOfFace.error());
     for (std::size_t m = 0; m < meshes_.size(); ++m)
-      if (auto ok = addMesh(m, (*placed)[m], *morphing); !ok) return std::unexpected(ok.error());
+      if (auto ok = addMesh(m, (*placed)[m], (*isOfFace)[m]); !ok)
+        return std::unexpected(ok.error());
     if (parts_.parts.empty())
       return fail("it has no triangles; export the meshes of the face with the file.");
     return std::move(parts_);
@@ -91,27 +101,36 @@ class PartFinder {
     return found;
   }
 
-  /// Whether any triangles have morph targets.
-  Result<bool> anyTargets() const {
+  /// [meshes] the primitives that are the face.
+  Result<std::vector<std::vector<std::size_t>>> facePrimitives() const {
+    const auto isChosen = chosenMeshes(document_);
+    if (!isChosen) return std::unexpected(isChosen.error());
+    std::vector<std::vector<std::size_t>> all(meshes_.size()), morphing(meshes_.size());
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      const auto found = triangles(m, true);
-      if (!found) return std::unexpected(found.error());
-      if (!found->empty()) return true;
+      if (!isChosen->empty() && !(*isChosen)[m]) continue;
+      for (const bool morphs : {false, true}) {
+        auto found = triangles(m, morphs);
+        if (!found) return std::unexpected(found.error());
+        (morphs ? morphing : all)[m] = std::move(*found);
+      }
     }
-    return false;
+    const auto isNone = [](const auto& list) { return list.empty(); };
+    if (isChosen->empty()) return std::ranges::all_of(morphing, isNone) ? all : morphing;
+    for (std::size_t m = 0; m < meshes_.size(); ++m)
+      if (!morphing[m].empty()) all[m] = std::move(morphing[m]);
+    return all;
   }
 
-  Result<void> addMesh(std::size_t mesh, const Placement& placed, bool morphing) {
-    const auto found = triangles(mesh, morphing);
-    if (!found) return std::unexpected(found.error());
-    if (found->empty()) return {};
+  Result<void> addMesh(std::size_t mesh, const Placement& placed,
+                       const std::vector<std::size_t>& found) {
+    if (found.empty()) return {};
     if (!anywhere_ && (!placed.world.isFinite() || placed.world.isSingular()))
       return fail(
           fmt::format("{}: its node flattens it or has no finite matrix; apply its "
                       "transform and export the file again.",
                       placeOf(document_, mesh)));
     std::vector<Primitive> primitives;
-    for (std::size_t p : *found) {
+    for (const std::size_t p : found) {
       auto primitive = readPrimitive(mesh, p);
       if (!primitive) return std::unexpected(primitive.error());
       if (!primitives.empty() && primitive->targets.size() != primitives[0].targets.size())
@@ -190,11 +209,7 @@ class PartFinder {
 
   /// Names of a mesh's targets: in its extras, as is customary, or in those of its primitives.
   std::vector<std::string> namesOf(std::size_t mesh, const Primitive& primitive) {
-    const Json* given = nullptr;
-    for (const Json* holder : {&meshes_[mesh], &meshes_[mesh]["primitives"][primitive.index]})
-      if (const Json* extras = gltf::find(*holder, "extras"); extras && !given)
-        if (const Json* list = gltf::find(*extras, "targetNames"); list && list->is_array())
-          given = list;
+    const Json* const given = targetNames(meshes_[mesh], primitive.index);
     std::vector<std::string> names(primitive.targets.size());
     for (std::size_t t = 0; given && t < std::min(names.size(), given->size()); ++t)
       if (const Json& name = (*given)[t]; name.is_string()) names[t] = name.get<std::string>();

@@ -170,8 +170,8 @@ std::string touchingMeshes(const Document& document, const Parts& parts, const M
   }
   if (touching.empty()) return {};
   return fmt::format(
-      "Slits as wide as the tolerance may show between the face and {}; to close them, give what "
-      "meets the face there a morph target that moves nothing, so that it is part of the face.",
+      "Slits as wide as the tolerance may show between the face and {}; to close them, have that "
+      "be part of the face: choose all meshes of the face by their names (--mesh).",
       io::fewOf(touching, 3));
 }
 

@@ -188,8 +188,13 @@ bool isCutToTriangles(const Polygons& polygons) {
 }  // namespace
 
 Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> targets,
-                             const ReadProgress& progress, bool withScene) {
+                             const ReadProgress& progress, const SourceOptions& options) {
   if (!isGltf(neutral)) {
+    if (!options.meshes.empty())
+      return fail(
+          fmt::format("{} has a single mesh, which is the face; choose meshes by their "
+                      "names only from a .glb, .gltf or .vrm.",
+                      neutral.string()));
     auto rig = readRig(neutral, targets, progress);
     if (!rig) return std::unexpected(rig.error());
     if (isCutToTriangles(rig->neutral.polygons))
@@ -201,7 +206,7 @@ Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> 
                             neutral.string(), targets[0].string()));
   const Result<std::string> bytes = readFile(neutral);
   if (!bytes) return std::unexpected(bytes.error());
-  return parseGltf(*bytes, neutral.string(), folderOf(neutral), withScene);
+  return parseGltf(*bytes, neutral.string(), folderOf(neutral), options);
 }
 
 }  // namespace sweepface

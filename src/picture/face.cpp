@@ -286,9 +286,8 @@ Result<std::vector<Vec3>> originalPositions(const Rig& rig, const MeshRig& sourc
   if (source.neutral.positions.size() != vertices)
     return fail(
         fmt::format("The neutral has {} vertices, but the face was made from {}; give the mesh it "
-                    "was converted from{}.",
-                    source.neutral.positions.size(), vertices,
-                    source.neutral.positions.size() < vertices ? ", subdivided if it was" : ""));
+                    "was converted from, chosen and subdivided in the same way.",
+                    source.neutral.positions.size(), vertices));
   std::vector<Vec3> positions = source.neutral.positions;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     if (weights[k] == 0) continue;

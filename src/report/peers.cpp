@@ -27,7 +27,7 @@ double reachOf(const MeshRig& source, int bits) {
 Result<void> measureFile(PeerFile& file, std::string_view bytes, const MeshRig& source,
                          double radius) {
   file.bytes = bytes.size();
-  const Result<RigSource> decoded = parseGltf(bytes, "GLB", {}, false);
+  const Result<RigSource> decoded = parseGltf(bytes, "GLB", {}, {.withScene = false});
   if (!decoded) return std::unexpected(decoded.error());
   const MeshRig& found = decoded->rig;
   const auto places = counterparts(source, found, radius);

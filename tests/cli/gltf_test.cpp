@@ -96,6 +96,36 @@ TEST_F(GltfSource, IsRefusedWhereItsSceneAloneTakesMoreThanIsAllowed) {
   EXPECT_EQ(run(command + "00").code, 0);
 }
 
+/// The face is the mesh 'head', and 'hat' has none of its targets.
+TEST_F(GltfSource, MayBeSomeOfItsMeshes) {
+  Glb glb = smallFace();
+  Json hat = glb.primitive();
+  hat.erase("targets");
+  glb.add("meshes", {{"name", "hat"}, {"primitives", Json::array({hat})}});
+  glb.add("nodes", {{"name", "Hat"}, {"mesh", 1}, {"translation", {0, 4, 0}}});
+  folder.file("face.glb", glb.bytes());
+  const std::string both = " --mesh head --mesh Hat ", made = "convert face.glb -o face.sweep";
+  EXPECT_EQ(report(made + " --tolerance 0.1")["vertices"], 9);
+  EXPECT_EQ(report(made + " --tolerance 0.1 --mesh head")["vertices"], 9);
+  EXPECT_EQ(report(made + " --tolerance 0.1" + both)["vertices"], 18);
+  EXPECT_TRUE(fails("measure face.sweep face.glb", "converted from, chosen and"));
+  EXPECT_EQ(run("measure face.sweep face.glb" + both).code, 0);
+  EXPECT_EQ(run("render face.sweep -o a.png --size 64x64 --compare face.glb" + both).code, 0);
+  EXPECT_EQ(run("report face.sweep face.glb -o a.html --no-tolerances -q" + both).code, 0);
+  EXPECT_TRUE(fails("render face.sweep -o a.png --mesh head", "--mesh requires --compare", 2));
+}
+
+TEST_F(GltfSource, IsRefusedWithoutAMeshOfTheName) {
+  EXPECT_TRUE(fails("convert face.glb -o face.sweep --mesh haed",
+                    "face.glb: no mesh and no node with meshes is named 'haed'; its meshes are "
+                    "'head'."));
+  EXPECT_TRUE(fails("convert face.glb -o face.sweep --mesh ''", "--mesh: This is empty", 2));
+  folder.file("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  EXPECT_TRUE(fails("convert quad.obj -o face.sweep --mesh quad",
+                    "quad.obj has a single mesh, which is the face; choose meshes by their names "
+                    "only from a .glb, .gltf or .vrm."));
+}
+
 TEST_F(GltfSource, MayBeAnAvatar) {
   folder.file("face.VRM", smallFace().bytes());
   EXPECT_EQ(report("convert face.VRM -o face.sweep --tolerance 0.1")["targets"], 2);

@@ -40,11 +40,13 @@ TEST_F(Subdivide, IsGivenAgainToCompareWithTheCage) {
   const auto report = nlohmann::json::parse(measured.out);
   EXPECT_LE(report["worst"]["distanceMax"], report["tolerance"]);
   EXPECT_TRUE(fails("measure face.sweep neutral.obj targets",
-                    "made from 143; give the mesh it was converted from, subdivided if it was."));
+                    "made from 143; give the mesh it was converted from, chosen and subdivided in "
+                    "the same way."));
   EXPECT_TRUE(
       fails("render face.sweep -o r.png --size 200x200 --weights smile "
             "--compare neutral.obj targets",
-            "made from 143; give the mesh it was converted from, subdivided if it was."));
+            "made from 143; give the mesh it was converted from, chosen and subdivided in the same "
+            "way."));
   EXPECT_EQ(
       run("report face.sweep neutral.obj targets --subdivide 1 --no-tolerances -o r.html").err, "");
   EXPECT_EQ(run("render face.sweep -o r.png --size 200x200 --weights smile "

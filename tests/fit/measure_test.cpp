@@ -242,7 +242,7 @@ TEST(Measure, refusesWhatDoesNotBelongTogether) {
   EXPECT_NE(measure(undecoded, source).error().message.find("not decoded yet"), std::string::npos);
   EXPECT_EQ(measure(rig, withTargets(plane(3, 3))).error().message,
             "the neutral has 16 vertices, the model was made from 99; give the mesh it was "
-            "converted from, subdivided if it was");
+            "converted from, chosen and subdivided in the same way");
 }
 
 TEST(Measure, endsWhereItIsGivenUp) {

@@ -333,6 +333,7 @@ TEST(GltfReader, FacesHaveTheNamesOfMaterialsAndMeshes) {
   glb.json["meshes"][0]["primitives"].push_back(second);
   glb.add("meshes",
           {{"primitives", Json::array({third})}, {"extras", {{"targetNames", {"open", "wink"}}}}});
+  glb.add("nodes", {{"mesh", 1}});
   const Polygons polygons = read(glb).rig.neutral.polygons;
   EXPECT_EQ(polygons.materials, (std::vector<std::string>{"skin", "material_1"}));
   EXPECT_EQ(polygons.groups, (std::vector<std::string>{"head"}));
@@ -491,6 +492,7 @@ TEST(GltfReader, PartsComeOneAfterTheOther) {
   jaw["targets"].push_back({{"POSITION", t}});
   glb.add("meshes", {{"primitives", Json::array({jaw})},
                      {"extras", {{"targetNames", Json::array({"jaw"})}}}});
+  glb.add("nodes", {{"mesh", 1}});
   const RigSource source = read(glb);
   ASSERT_EQ(source.rig.neutral.positions.size(), 12u);
   ASSERT_EQ(source.rig.targets.size(), 3u);

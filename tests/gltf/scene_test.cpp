@@ -242,7 +242,7 @@ TEST(Scene, NoTwoShapesOrRunsShareAnEmptiedAccessor) {
   Json again = glb.primitive();
   again["targets"][0] = Json::object();
   glb.json["meshes"][0]["primitives"].push_back(again);
-  glb.add("meshes", {{"primitives", Json::array({glb.primitive()})}});
+  glb.add("nodes", {{"mesh", glb.add("meshes", {{"primitives", Json::array({glb.primitive()})}})}});
   const gltf::Document scene = sceneFrom(glb);
   const auto parts = gltf::findParts(scene);
   ASSERT_TRUE(parts) << parts.error().message;

@@ -281,7 +281,8 @@ TEST(SceneWriter, KeepsItsWeightsUnlessOthersAreGiven) {
   const Written given = write(rig, {.weights = weights});
   EXPECT_EQ(given.json["meshes"][0]["weights"], Json({0.75, 0.0}));
   EXPECT_EQ(given.json["meshes"][1]["weights"], Json({0.0, 0.75}));
-  EXPECT_FALSE(given.json["nodes"][1].contains("weights"));
+  EXPECT_EQ(given.json["nodes"][1]["weights"], Json({0.0, 0.75}));
+  EXPECT_FALSE(given.json["nodes"][0].contains("weights"));
 }
 
 /// Both meshes name the same accessors, but stand in different places.

@@ -44,8 +44,8 @@ TEST(Touching, MeshesAreNamedOnce) {
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[1],
             "Slits as wide as the tolerance may show between the face and mesh 1 'body', primitive "
-            "0; to close them, give what meets the face there a morph target that moves nothing, "
-            "so that it is part of the face.");
+            "0; to close them, have that be part of the face: choose all meshes of the face by "
+            "their names (--mesh).");
 }
 
 TEST(Touching, MeshesShareSeveralPlacesOfTheRimThatNeverMove) {

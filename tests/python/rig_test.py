@@ -388,6 +388,10 @@ class Conversion(FaceTest):
         sheet().save_glb(self.path("sheet.glb"))
         back = sweepface.read_meshes(self.path("sheet.glb"))
         self.assertEqual(repr(back), "<sweepface.Meshes: 30 vertices, 20 faces, 1 targets>")
+        for names in ("face", ["face"]):
+            self.assertEqual(len(sweepface.read_meshes(self.path("sheet.glb"), meshes=names).faces), 20)
+        with self.refuses("sheet.glb: no mesh and no node with meshes is named 'head'; its meshes are 'face'."):
+            sweepface.read_meshes(self.path("sheet.glb"), meshes="head")
         with open(self.path("square.obj"), "w") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         self.assertEqual(sweepface.read_meshes(self.path("square.obj")).faces, [(0, 1, 2, 3)])
@@ -395,6 +399,10 @@ class Conversion(FaceTest):
             lifted.write(neutral.read().replace("1 1 0", "1 1 1"))
         both = sweepface.read_meshes(self.path("square.obj"), self.path("lifted.obj"))
         self.assertEqual(both.targets["lifted"][2, 2], 1)
+        with self.refuses("square.obj has a single mesh"):
+            sweepface.read_meshes(self.path("square.obj"), meshes=["square"])
+        with self.refuses("meshes must be names"):
+            sweepface.read_meshes(self.path("square.obj"), meshes=5)
         with self.refuses("none.obj"):
             sweepface.read_meshes(self.path("none.obj"))
 

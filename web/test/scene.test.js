@@ -79,8 +79,8 @@ async function compare(sweep) {
     face.update();
     for (const [name, mesh] of mine) {
       const other = theirs.get(name);
-      for (const [target, k] of Object.entries(other.morphTargetDictionary ?? {}))
-        other.morphTargetInfluences[k] = weights[target] ?? weights[face.names[k]];
+      for (const [target, k] of Object.entries(other.morphTargetDictionary ?? {}))  // a number, if it has no name
+        other.morphTargetInfluences[k] = weights[target in face.names ? face.names[k] : target] ?? other.morphTargetInfluences[k];
       assertShowsTheSame(mesh, other, name);
     }
   }
@@ -178,6 +178,43 @@ test('nodes place meshes as the tool has it: by matrices, one in another, those 
     delete json.animations;
   }));
   assert.deepEqual([face.meshes.length, mine.size], [3, 4]);
+});
+
+/** The model with an eye that has a target of the head's, too, and a hat with none. */
+const winking = (json) => {
+  const [head, eye] = json.meshes;
+  eye.primitives[0].targets.push(eye.primitives[0].targets[0]);
+  eye.extras.targetNames.push('smile');
+  eye.weights = [0.5, 0];
+  delete json.nodes[4].weights;
+  head.extras.targetNames[0] = 'jaw';
+};
+
+test('a face may be some of the meshes, with or without targets', options, async () => {
+  for (const [names, meshes] of [[['head'], 2], [['head', 'hat'], 3], [['eyeL'], 2]]) {
+    const {face} = await compare(changed(winking, ...names.flatMap((name) => ['--mesh', name])));
+    assert.equal(face.meshes.length, meshes, names.join());
+  }
+});
+
+test('targets of other meshes move with those of the face that have the same names', options, async () => {
+  const {face, scene} = await load(readFileSync(changed(winking, '--mesh', 'head')));
+  const eyes = ['eyeL', 'eyeR'].map((name) => scene.getObjectByName(name));
+  assert.deepEqual(face.names, ['jaw', 'smile']);
+  const look = eyes[0].morphTargetInfluences[0];
+  const seen = () => eyes.map(({morphTargetInfluences}) => [...morphTargetInfluences]);
+  face.setWeights({jaw: 1, smile: 0.75});
+  assert.deepEqual(seen(), [[look, 0.75], [look, 0.75]]);
+  eyes[0].morphTargetInfluences[1] = 0;  // which moves the eye alone
+  eyes[1].morphTargetInfluences[0] = 0.125;
+  face.update();
+  assert.equal(face.weights.smile, 0.75);
+  face.setWeights({smile: 0.5});
+  assert.deepEqual(seen(), [[look, 0.5], [0.125, 0.5]]);
+  const {cloneScene} = await import('../sweepface_scene.js'), copy = cloneScene({scene, face, animations: []});
+  copy.face.setWeights({smile: 1});
+  assert.equal(copy.scene.getObjectByName('eyeL').morphTargetInfluences[1], 1);
+  assert.deepEqual(seen(), [[look, 0.5], [0.125, 0.5]]);
 });
 
 test('parts without normals get none, and extras stay', options, async () => {
