@@ -1,5 +1,4 @@
 // .sweep faces for Babylon.js: a mesh whose geometry follows the weights.
-import {Vector3} from '@babylonjs/core/Maths/math.vector.js';
 import {VertexBuffer} from '@babylonjs/core/Buffers/buffer.js';
 import {EngineStore} from '@babylonjs/core/Engines/engineStore.js';
 import {MultiMaterial} from '@babylonjs/core/Materials/multiMaterial.js';
@@ -7,10 +6,11 @@ import {StandardMaterial} from '@babylonjs/core/Materials/standardMaterial.js';
 import {Mesh} from '@babylonjs/core/Meshes/mesh.js';
 import {VertexData} from '@babylonjs/core/Meshes/mesh.vertexData.js';
 import {SubMesh} from '@babylonjs/core/Meshes/subMesh.js';
-import {Sweepface} from './sweepface.js';
-import {ownOptions} from './sweepface_regions.js';
+import {bound, endsOf} from './sweepface_babylon_bounds.js';
+import {eachFrame} from './sweepface_babylon_frames.js';
+import {checkScene, loadFor} from './sweepface_babylon_source.js';
 import {twinOf} from './sweepface_twin.js';
-import {boxOf, faceFrom, nameOf, otherGeometry} from './sweepface_values.js';
+import {faceFrom, otherGeometry} from './sweepface_values.js';
 
 /** Materials that meshes made for themselves. */
 const made = new WeakSet();
@@ -40,31 +40,6 @@ function release(material) {
 /** The triangles the other way around, as right-handed scenes have them. */
 const reversed = (triangles) => triangles.map((_, k) => triangles[k + [0, 1, -1][k % 3]]);
 
-/** The seconds that pass with a step of Babylon.js's own animations, `milliseconds` after the last one. */
-function passing(scene, milliseconds) {
-  const engine = scene.getEngine();
-  if (!scene.animationsEnabled) return 0;
-  if (engine.isDeterministicLockStep()) return engine.getTimeStep() / 1000;
-  if (scene.useConstantAnimationDeltaTime) return 0.016;  // whatever the scale of time
-  return milliseconds * scene.animationTimeScale / 1000;
-}
-
-async function download(url) {
-  const answer = await fetch(url);
-  if (answer.ok) return answer.arrayBuffer();
-  throw new Error(`${nameOf(url)} cannot be loaded: the server answers ${answer.status} ${answer.statusText}`.trimEnd() + '.');
-}
-
-/** The name of a file without its folders and query; other URLs, such as data:, have none. */
-function nameIn(source) {
-  return (/^(data|blob):/i.test(source) ? '' : nameOf(source).split('/').pop()) || 'face';
-}
-
-function checkScene(scene) {
-  if (typeof scene?.getEngine !== 'function')
-    throw new TypeError('A mesh takes the scene that it belongs to, and what else it takes after that.');
-}
-
 /** What a clone has in common with its original, besides place, pivot and parent. */
 const COPIED = [
   'advancesWithScene', 'isVisible', 'visibility', 'isPickable', 'receiveShadows', 'renderingGroupId', 'layerMask',
@@ -84,22 +59,15 @@ export class SweepfaceMesh extends Mesh {
   #vectors;
   #stale = true;
   #moving;
-  #removals = [];  // of observers, functions
+  #leave = () => {};  // the frames of the scene
   #material;  // that it was made with
   #isMirrored;
 
   /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load, and `load`, loadInWorker. */
   static async load(source, scene, options = {}) {
-    if (scene) checkScene(scene);
-    const {load = Sweepface.load, ...usual} = ownOptions(options), isUrl = typeof source === 'string' || source instanceof URL;
-    if (isUrl) usual.name ??= nameOf(source);
-    scene?.addPendingData(usual);  // its whenReadyAsync() waits
-    try {
-      const face = await load(isUrl ? await download(source) : source, usual);
-      return SweepfaceMesh.#from.call(this, face, isUrl ? nameIn(source) : 'face', scene);
-    } finally {
-      scene?.removePendingData(usual);
-    }
+    return loadFor(scene, source, options, async (bytes, load, usual, name) => {
+      return SweepfaceMesh.#from.call(this, await load(bytes, usual), name, scene);
+    });
   }
 
   static #from(face, name, scene) {
@@ -138,19 +106,8 @@ export class SweepfaceMesh extends Mesh {
     });
     this.#makeGeometry();
     this.material = this.#material = material ?? this.#makeMaterial();
-    const {onAfterAnimationsObservable, onBeforeRenderTargetsRenderObservable} = this.getScene();
-    let before;
-    this.#watch(onAfterAnimationsObservable, (scene) => {  // not called if a frame ignores animations
-      const now = performance.now();
-      this.#pass(this.advancesWithScene ? passing(scene, now - (before ?? now)) : 0);
-      before = now;
-    });
-    this.#watch(onBeforeRenderTargetsRenderObservable, () => this.update());  // after all that set weights before the frame
-  }
-
-  #watch(observable, call) {
-    const observer = observable.add(call);
-    this.#removals.push(() => observable.remove(observer));
+    const pass = (seconds) => this.#pass(this.advancesWithScene ? seconds : 0);
+    this.#leave = eachFrame(this.getScene(), pass, () => this.update());
   }
 
   #makeGeometry() {
@@ -165,12 +122,7 @@ export class SweepfaceMesh extends Mesh {
     this.#bound();
   }
 
-  /** Gives the mesh and its parts the box of all vertices: refreshBoundingInfo() takes longer than the evaluation. */
-  #bound() {
-    const ends = boxOf(this.#vectors[0].values).map((place) => Vector3.FromArray(place)), world = this.getWorldMatrix();
-    for (const info of [this, ...this.subMeshes ?? []].map((part) => part.getBoundingInfo()))
-      if (!info.isLocked) info.reConstruct(...ends, world);
-  }
+  #bound() { bound(this, endsOf(this.#vectors[0].values)); }
 
   #makeMaterial() {
     const plain = materialsOf(this.face, this.getScene());
@@ -271,7 +223,7 @@ export class SweepfaceMesh extends Mesh {
   }
 
   dispose(doNotRecurse, disposeMaterialAndTextures = false) {
-    for (const remove of this.#removals) remove();  // later, if they are being called
+    this.#leave();
     const materials = new Set([this.#material, this.material]);
     super.dispose(doNotRecurse, disposeMaterialAndTextures);
     materials.forEach(release);

@@ -1,26 +1,21 @@
 // Whole scenes for three.js: what a glTF file held when it was converted (skeletons, materials, textures, other meshes,
 // animations), with the face in it.
+import {BufferAttribute} from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import {apart} from './sweepface_animation.js';
 import {parted} from './sweepface_chunks.js';
 import {card} from './sweepface_followers.js';
-import {damaged, formatGlb, sceneFrom} from './sweepface_glb.js';
+import {formatGlb, sceneFrom} from './sweepface_glb.js';
 import {SceneFace} from './sweepface_scene_face.js';
-import {fill, unfit, withoutShapes} from './sweepface_scene_fill.js';
-import {partsOf} from './sweepface_scene_parts.js';
+import {leftOf} from './sweepface_scene_left.js';
+import {checkDetail, checkFit, readScene} from './sweepface_scene_read.js';
 import {meshFrom, settings, SweepfaceLoader} from './sweepface_three.js';
 import {bytesOf, isGiven} from './sweepface_values.js';
 
 export {SceneFace};
 
-const NO_SCENE = 'holds no scene, as it was made from a mesh without one or with --bare; load it by SweepfaceLoader.';
-
-/** Throws if an option asks for other vertices than the source's, which the scene goes with. */
-function checkDetail({lod, edgeLength, error, vertices}) {
-  if (lod || [edgeLength, error, vertices].some((budget) => budget !== undefined))
-    throw new TypeError('The meshes of a scene have the vertices of their source; ' +
-                        'leave out lod, edgeLength, error and vertices.');
-}
+/** Targets that hold nothing of their own: three.js makes influences for them. */
+const HOLLOW = ({attributes: {POSITION}}) => ({POSITION});
 
 /** The JSON of the glTF file that a face came with, or null if there is no scene in the file. */
 export async function sceneJson(given, name = 'The face') {
@@ -28,20 +23,6 @@ export async function sceneJson(given, name = 'The face') {
   if (!bytes) throw new TypeError('sceneJson needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
   const {text} = parted(bytes);
   return text ? (await sceneFrom(text, name)).json : null;
-}
-
-/** The scene in a text: its JSON without shapes, its binary part, and which parts of it are the face. */
-async function read(text, name) {
-  if (!text) throw new Error(`${name} ${NO_SCENE}`);
-  const scene = await sceneFrom(text, name);
-  if (!scene.json.scenes?.length)
-    throw new Error(`${name}: its glTF file has nodes, but no scene of them; load the face alone by SweepfaceLoader.`);
-  try {
-    const {parts, vertices} = partsOf(scene.json);
-    return {...scene, json: withoutShapes(scene.json, parts), parts, vertices};
-  } catch (cause) {
-    throw damaged(name, cause);
-  }
 }
 
 /** What GLTFLoader makes of a scene. */
@@ -61,6 +42,22 @@ async function geometriesOf({parser}, parts) {
     found.set(part, (mesh.geometry ? mesh : mesh.children[part.primitive]).geometry);
   }
   return found;
+}
+
+/** Gives geometries, a map from parts, what the scene leaves to the face. */
+function fill({json, parts}, geometries, face, name) {
+  const shapeOf = (part) => {
+    const {index, attributes: {position}} = geometries.get(part);
+    return {indices: index?.array, vertexCount: position.count};
+  };
+  const uvs = new Map();  // attributes that parts have in common
+  for (const [part, {indices, texcoords}] of leftOf(json, parts, shapeOf, face, name)) {
+    const geometry = geometries.get(part);
+    if (indices) geometry.setIndex(new BufferAttribute(indices, 1));
+    if (!texcoords) continue;
+    if (!uvs.has(texcoords)) uvs.set(texcoords, new BufferAttribute(texcoords, 2));
+    geometry.setAttribute('uv', uvs.get(texcoords));
+  }
 }
 
 /**
@@ -88,11 +85,11 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
     checkDetail(others);
     const face = await load(rest, others);
     try {
-      const scene = await read(text, name);
-      if (scene.vertices !== face.pointCount) throw unfit(name);
+      const scene = await readScene(text, name, {hollow: HOLLOW, alone: 'SweepfaceLoader'});
+      checkFit(scene, face, name);
       const gltf = await parse(scene, gltfLoader ?? this.#gltfLoader(), this.resourcePath || folder, name);
       const geometries = await geometriesOf(gltf, scene.parts);
-      fill(scene.json, geometries, face, name);
+      fill(scene, geometries, face, name);
       const parts = new Map([...geometries].map(([part, geometry]) => [geometry, part]));
       const animations = gltf.animations.map((animation) => apart(animation, gltf.scene));
       return Object.assign(gltf, {animations, face: new SceneFace(face, gltf.scenes, parts, way)});

@@ -22,7 +22,7 @@ export class OnCard {
     this.#textures = original ? original.#textures.twin() : texturesOf(this.#tables, way.integers);
     const groups = new Map();
     this.#groups = new Map([...runs].map((run) => {
-      const key = String(run.world.elements);
+      const key = String(run.world);
       if (!groups.has(key)) groups.set(key, this.#groupOf(run));
       return [run, groups.get(key)];
     }));

@@ -1,25 +1,20 @@
 // What of a scene is the face, by the rules of docs/glb.md ("What is the face").
-import {Matrix4, Quaternion, Vector3} from 'three';
+import {affineOf, determinant, IDENTITY, product} from './sweepface_affine.js';
 
 const listOf = (holder, name) => holder?.[name] ?? [];
 const LIST = 4, FAN = 6;
 const isTriangles = ({mode = LIST}) => mode >= LIST && mode <= FAN;
 const morphs = (primitive) => listOf(primitive, 'targets').length > 0;
 
-function localMatrix({matrix, translation = [0, 0, 0], rotation = [0, 0, 0, 1], scale = [1, 1, 1]}) {
-  if (matrix) return new Matrix4().fromArray(matrix);
-  return new Matrix4().compose(new Vector3(...translation), new Quaternion(...rotation), new Vector3(...scale));
-}
-
 /** The matrices that place the nodes in the scene; throws if nodes are children of several others or of each other. */
 function worldMatrices(nodes) {
   const isChild = new Set(nodes.flatMap((node) => listOf(node, 'children'))), world = [];
   const order = [...nodes.keys()].filter((n) => !isChild.has(n));
-  for (const n of order) world[n] = localMatrix(nodes[n]);
+  for (const n of order) world[n] = affineOf(nodes[n]);
   for (const n of order)  // which grows
     for (const child of listOf(nodes[n], 'children')) {
       if (world[child]) throw new RangeError();
-      world[child] = localMatrix(nodes[child]).premultiply(world[n]);
+      world[child] = product(world[n], affineOf(nodes[child]));
       order.push(child);
     }
   if (order.length !== nodes.length) throw new RangeError();
@@ -42,7 +37,7 @@ function placements(json) {
     nodes.forEach(({mesh, skin}, n) => {
       if (mesh === undefined || shown[n] !== isShown || placed[mesh]) return;
       const isSkinned = skin !== undefined;  // by which alone the mesh is placed then
-      placed[mesh] = {world: isSkinned ? new Matrix4() : world[n], mirrors: world[n].determinant() < 0};
+      placed[mesh] = {world: isSkinned ? IDENTITY : world[n], mirrors: determinant(world[n]) < 0};
     });
   return placed;
 }
@@ -87,7 +82,7 @@ export function partsOf(json) {
   const parts = meshes.flatMap((mesh, m) => {
     if (chosen && !chosen.has(m)) return [];
     const isFaced = chosen ? isMorphing(mesh) : isAnyMorphing;
-    const runs = new Map(), {world = new Matrix4(), mirrors = false} = placed[m] ?? {};
+    const runs = new Map(), {world = IDENTITY, mirrors = false} = placed[m] ?? {};
     let names;
     return mesh.primitives.flatMap((primitive, p) => {
       if (!isTriangles(primitive) || (isFaced && !morphs(primitive))) return [];

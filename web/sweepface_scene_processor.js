@@ -1,10 +1,11 @@
 // The face of a scene, evaluated on the processor.
 import {BufferAttribute, DynamicDrawUsage, Matrix3, Matrix4, Sphere} from 'three';
+import {IDENTITY, inverse} from './sweepface_affine.js';
 import {bound} from './sweepface_three.js';
 
 /** What brings points and normals from the space of the scene to that of a mesh that `world` places in it. */
 export function toMesh(world) {
-  const points = world.clone().invert();
+  const points = new Matrix4().fromArray(inverse(world));
   return {points, normals: new Matrix3().getNormalMatrix(points)};
 }
 
@@ -17,7 +18,7 @@ class Run {
     const own = (all) => new BufferAttribute(all.subarray(3 * first, 3 * (first + count)), 3).setUsage(DynamicDrawUsage);
     this.position = own(positions);
     this.normal = own(normals);
-    if (!world.equals(new Matrix4())) this.#toMesh = toMesh(world);
+    if (world.some((value, k) => value !== IDENTITY[k])) this.#toMesh = toMesh(world);
   }
 
   /** Brings the attributes to the space of the mesh after the face has been evaluated. */

@@ -529,7 +529,7 @@ test('nodes in long chains take no long time, and none go in circles', {...optio
   const chain = Array.from({length: count}, (_, k) => (k + 1 < count ? {children: [k + 1]} : {mesh: 0, translation: [1, 2, 3]}));
   const meshes = [{primitives: [{attributes: {POSITION: 0}}]}];
   const json = {nodes: chain, scenes: [{nodes: [0]}], accessors: [{count: 3}], meshes};
-  assert.deepEqual(partsOf(json).parts[0].run.world.elements.slice(12, 15), [1, 2, 3]);
+  assert.deepEqual(partsOf(json).parts[0].run.world.slice(12, 15), [1, 2, 3]);
   for (const nodes of [[{children: [1]}, {children: [0]}], [{children: [2]}, {children: [2]}, {}], [{children: [0]}]])
     assert.throws(() => partsOf({...json, nodes}), RangeError);
 });

@@ -1,5 +1,4 @@
 // What a scene leaves to its face (docs/glb.md, "The scene"): triangles and texture coordinates, which do not change.
-import {BufferAttribute} from 'three';
 
 /** What is wrong with a scene that belongs to another face. */
 export const unfit = (name) => new Error(`${name}: the face and its scene do not fit; convert the source again.`);
@@ -7,33 +6,37 @@ export const unfit = (name) => new Error(`${name}: the face and its scene do not
 const repainted = (name) =>
   new Error(`${name}: the face has other materials than its scene; export it as a .glb and convert that.`);
 
+const LIST = 4, FAN = 6;  // modes of primitives
+
 const primitiveOf = (json, {mesh, primitive}) => json.meshes[mesh].primitives[primitive];
 
-function isEmpty({accessors}, index) {
+/** Whether an accessor holds no data of its own. */
+export function isEmpty({accessors}, index) {
   return index !== undefined && accessors[index].bufferView === undefined && accessors[index].sparse === undefined;
 }
 
 /**
- * A copy of the scene's JSON in which targets have names but no shapes of their own: three.js then makes influences for
- * them, which cost nothing.
+ * A copy of the scene's JSON in which targets have names but no shapes of their own, which cost nothing: `hollow` makes one
+ * for a primitive. Loaders then make influences for them.
  */
-export function withoutShapes(given, parts) {
+export function withoutShapes(given, parts, hollow) {
   const json = structuredClone(given);
   for (const part of parts.filter(({names}) => names.length > 0)) {
-    const primitive = primitiveOf(json, part), mesh = json.meshes[part.mesh], {POSITION} = primitive.attributes;
-    primitive.targets = part.names.map(() => ({POSITION}));
+    const primitive = primitiveOf(json, part), mesh = json.meshes[part.mesh];
+    primitive.targets = part.names.map(() => hollow(primitive));
     mesh.extras = {...mesh.extras, targetNames: part.names};
   }
   return json;
 }
 
-/** How many triangles of three different vertices a geometry has. */
-function countTriangles({index, attributes: {position}}) {
-  if (!index) return Math.floor(position.count / 3);
+/** How many triangles of three different vertices a shape has: a list of corners, a strip or a fan. */
+function countTriangles({indices, vertexCount, mode = LIST}) {
+  const vertex = (k) => (indices ? indices[k] : k), length = indices?.length ?? vertexCount;
+  const step = mode === LIST ? 3 : 1, last = mode === LIST ? length - 2 : length - 1;
   let count = 0;
-  for (let k = 0; k + 2 < index.count; k += 3) {
-    const a = index.getX(k), b = index.getX(k + 1), c = index.getX(k + 2);
-    count += a !== b && b !== c && c !== a;
+  for (let k = mode === LIST ? 0 : 1; k < last; k += step) {
+    const [a, b, c] = mode === LIST ? [k, k + 1, k + 2] : mode === FAN ? [0, k, k + 1] : [k - 1, k, k + 1];
+    count += vertex(a) !== vertex(b) && vertex(b) !== vertex(c) && vertex(c) !== vertex(a);
   }
   return count;
 }
@@ -73,30 +76,33 @@ function inOrder(json, parts, counts, face) {
   return isSame ? own.flatMap(([, group]) => group) : undefined;
 }
 
-/** Gives the geometries of the parts, a map from these, what the scene leaves to the face. */
-export function fill(json, geometries, face, name) {
-  const {triangles, texcoords, copies, pointCount} = face, parts = [...geometries.keys()];
+/**
+ * What the scene leaves to the face, for each part: {indices, texcoords}; what the scene has itself is undefined. Parts of a
+ * run have their texture coordinates in common. `shapeOf` says what was made of a part: {indices, vertexCount, mode}.
+ */
+export function leftOf(json, parts, shapeOf, face, name) {
+  const {triangles, texcoords, copies, pointCount} = face, left = new Map();
   const isLeft = (part) => isEmpty(json, primitiveOf(json, part).indices);
   const counts = new Map(parts.map((part) => {
-    const geometry = geometries.get(part);
-    return [part, isLeft(part) ? geometry.index.count / 3 : countTriangles(geometry)];
+    return [part, isLeft(part) ? json.accessors[primitiveOf(json, part).indices].count / 3 : countTriangles(shapeOf(part))];
   }));
   if (3 * parts.reduce((sum, part) => sum + counts.get(part), 0) !== triangles.length) throw unfit(name);
   const ordered = inOrder(json, parts, counts, face), uvs = new Map();
   if (!ordered) throw repainted(name);
   let at = 0;
   for (const part of ordered) {
-    const {run: {first, count, mirrors}} = part, geometry = geometries.get(part), end = at + 3 * counts.get(part);
+    const {run: {first, count, mirrors}} = part, end = at + 3 * counts.get(part), own = {};
     const hasUv = texcoords && isEmpty(json, primitiveOf(json, part).attributes.TEXCOORD_0);
-    if (!isLeft(part)) at = end;
-    else geometry.setIndex(new BufferAttribute(count < 65536 ? new Uint16Array(end - at) : new Uint32Array(end - at), 1));
-    if (hasUv && !uvs.has(part.run)) uvs.set(part.run, new BufferAttribute(new Float32Array(2 * count), 2));
-    if (hasUv) geometry.setAttribute('uv', uvs.get(part.run));
+    if (isLeft(part)) own.indices = count < 65536 ? new Uint16Array(end - at) : new Uint32Array(end - at);
+    if (hasUv && !uvs.has(part.run)) uvs.set(part.run, new Float32Array(2 * count));
+    if (hasUv) own.texcoords = uvs.get(part.run);
+    left.set(part, own);
     for (let k = 0; at < end; ++at, ++k) {
-      const vertex = triangles[at], own = (vertex < pointCount ? vertex : copies[vertex - pointCount]) - first;
-      if (!(own >= 0 && own < count)) throw unfit(name);
-      geometry.index.array[mirrors && k % 3 > 0 ? k + 3 - 2 * (k % 3) : k] = own;
-      if (hasUv) uvs.get(part.run).setXY(own, texcoords[2 * vertex], 1 - texcoords[2 * vertex + 1]);
+      const corner = triangles[at], vertex = (corner < pointCount ? corner : copies[corner - pointCount]) - first;
+      if (!(vertex >= 0 && vertex < count)) throw unfit(name);
+      if (own.indices) own.indices[mirrors && k % 3 > 0 ? k + 3 - 2 * (k % 3) : k] = vertex;
+      if (hasUv) own.texcoords.set([texcoords[2 * corner], 1 - texcoords[2 * corner + 1]], 2 * vertex);
     }
   }
+  return left;
 }

@@ -1,0 +1,85 @@
+// Whole scenes for Babylon.js: what a glTF file held when it was converted, with the face in it.
+import '@babylonjs/loaders/glTF/2.0/index.js';
+import {EngineStore} from '@babylonjs/core/Engines/engineStore.js';
+import {LoadAssetContainerAsync} from '@babylonjs/core/Loading/sceneLoader.js';
+import {SceneFace} from './sweepface_babylon_face.js';
+import {checkScene, loadFor} from './sweepface_babylon_source.js';
+import {parted} from './sweepface_chunks.js';
+import {formatGlb} from './sweepface_glb.js';
+import {isEmpty} from './sweepface_scene_left.js';
+import {checkDetail, checkFit, readScene} from './sweepface_scene_read.js';
+import {bytesOf} from './sweepface_values.js';
+
+/** Targets that hold nothing: Babylon.js makes influences for them. */
+const HOLLOW = () => ({});
+
+/** The folder of a URL, beside which files that a scene names are looked for. */
+const folderOf = (source) => String(source).split(/[?#]/)[0].replace(/[^/]*$/, '');
+
+/**
+ * A copy of a scene's JSON for Babylon.js: without the indices that it leaves to the face, which would be looked for, and
+ * without coarser levels of detail, which would be shown first and replaced at any time.
+ */
+function prepared({json, parts}) {
+  const copy = structuredClone(json);
+  for (const {mesh, primitive} of parts) {
+    const own = copy.meshes[mesh].primitives[primitive];
+    if (isEmpty(json, own.indices)) delete own.indices;
+  }
+  for (const {extensions} of [...copy.nodes ?? [], ...copy.materials ?? []]) delete extensions?.MSFT_lod;
+  return copy;
+}
+
+/** What Babylon.js makes of a scene. */
+async function containerOf(scene, world, options, name) {
+  const bytes = new Uint8Array(formatGlb({...scene, json: prepared(scene)}));
+  try {
+    return await LoadAssetContainerAsync(bytes, world, {...options, pluginExtension: '.glb', name});
+  } catch (cause) {
+    throw new Error(`${name}: its scene cannot be shown: ${cause.message}`, {cause});
+  }
+}
+
+/** Drops tracks that keep targets of the face at 0, so that these can be moved meanwhile. */
+function dropStill(groups, targets) {
+  for (const group of groups)
+    for (const {animation, target} of [...group.targetedAnimations])
+      if (targets.has(target) && animation.getKeys().every(({value}) => value === 0)) group.removeTargetedAnimation(animation);
+}
+
+async function importFace(given, load, options, world, rootUrl) {
+  const {pluginOptions, ...others} = options, name = others.name || 'The face';
+  const bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
+  checkDetail(others);
+  const face = await load(rest, others);
+  let container;
+  try {
+    const scene = await readScene(text, name, {hollow: HOLLOW, alone: 'SweepfaceMesh.load'});
+    checkFit(scene, face, name);
+    container = await containerOf(scene, world, {pluginOptions, rootUrl}, name);
+    if (world.isDisposed) throw new Error('The scene was disposed of while the face was loading.');
+    const made = new SceneFace(face, container, scene, name);
+    dropStill(container.animationGroups, made.influences);
+    container.addAllToScene();
+    const {meshes, transformNodes, skeletons, animationGroups, lights, cameras} = container;
+    return {face: made, container, meshes, transformNodes, skeletons, animationGroups, lights, cameras};
+  } catch (error) {
+    container?.dispose();
+    face.dispose();
+    throw error;
+  }
+}
+
+/**
+ * Loads a .sweep file from a URL, or from bytes, with the scene that its face came with. `options` are those of
+ * Sweepface.load, `load`, loadInWorker, and `pluginOptions`, those of Babylon.js for loaders. Returns what Babylon.js makes
+ * of a glTF file, and `face`, which moves the meshes in it.
+ */
+export async function importScene(source, scene, options = {}) {
+  const world = scene ?? EngineStore.LastCreatedScene;
+  checkScene(world);
+  const isUrl = typeof source === 'string' || source instanceof URL;
+  return loadFor(world, source, options, (bytes, load, usual) => {
+    return importFace(bytes, load, usual, world, isUrl ? folderOf(source) : '');
+  });
+}

@@ -1,0 +1,34 @@
+// The scene in a .sweep file, as loaders of engines need it.
+import {damaged, sceneFrom} from './sweepface_glb.js';
+import {unfit, withoutShapes} from './sweepface_scene_left.js';
+import {partsOf} from './sweepface_scene_parts.js';
+
+/** Throws if an option asks for other vertices than the source's, which the scene goes with. */
+export function checkDetail({lod, edgeLength, error, vertices}) {
+  if (lod || [edgeLength, error, vertices].some((budget) => budget !== undefined))
+    throw new TypeError('The meshes of a scene have the vertices of their source; ' +
+                        'leave out lod, edgeLength, error and vertices.');
+}
+
+/**
+ * The scene in a text: its JSON without shapes, its binary part, and which parts of it are the face. `hollow` makes targets
+ * for a primitive; `alone` is what loads faces without a scene.
+ */
+export async function readScene(text, name, {hollow, alone}) {
+  if (!text)
+    throw new Error(`${name} holds no scene, as it was made from a mesh without one or with --bare; load it by ${alone}.`);
+  const scene = await sceneFrom(text, name);
+  if (!scene.json.scenes?.length)
+    throw new Error(`${name}: its glTF file has nodes, but no scene of them; load the face alone by ${alone}.`);
+  try {
+    const {parts, vertices} = partsOf(scene.json);
+    return {...scene, json: withoutShapes(scene.json, parts, hollow), parts, vertices};
+  } catch (cause) {
+    throw damaged(name, cause);
+  }
+}
+
+/** Throws if the face is not that of a scene. */
+export function checkFit({vertices}, face, name) {
+  if (vertices !== face.pointCount) throw unfit(name);
+}
