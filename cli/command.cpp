@@ -122,8 +122,8 @@ CLI::Option* addSubdivide(CLI::App& app, int& levels) {
 
 CLI::Option* addChosen(CLI::App& app, std::vector<std::string>& names) {
   const char* const help =
-      "Of a .glb, .gltf or .vrm: the face is the mesh of this name, or what the object of this "
-      "name shows; once for each. Without, all that the scene shows and that has morph targets";
+      "Of a .glb, .gltf or .vrm: the face is what the object of this name shows, or the mesh of "
+      "this name; once for each. Without, all that the scene shows and that has morph targets";
   return oneEachTime(app.add_option("--mesh", names, help))->check(notEmpty())->type_name("NAME");
 }
 

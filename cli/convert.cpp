@@ -194,7 +194,9 @@ std::vector<std::string> warningsOf(const ConvertArguments& a, const Strip& part
   if (!losesScene) std::ranges::copy(source.warnings, std::back_inserter(warnings));
   if (losesScene) warnings.push_back(sceneIsLost(a.meshes.neutral));
   if (isGltf(a.meshes.neutral) && source.rig.targets.empty())
-    warnings.push_back(a.meshes.neutral + " has no morph targets, so the face has no expressions.");
+    warnings.push_back(fmt::format(
+        "{} no morph targets, so the face has no expressions.",
+        a.meshes.chosen.empty() ? a.meshes.neutral + " has" : "The meshes that were chosen have"));
   for (const MeshTarget& target : source.rig.targets)
     if (!canBeListed(target.name)) warnings.push_back(cannotBeListed(target.name));
   return warnings;

@@ -27,7 +27,7 @@ void addOptions(CLI::App& app, ReportArguments& a) {
   addFace(app, a.face);
   addMeshes(app, a.meshes);
   CLI::Option* meshes = app.get_option("NEUTRAL")->required(false);
-  app.get_option("--subdivide")->needs(meshes);
+  for (const char* of : {"--mesh", "--subdivide"}) app.get_option(of)->needs(meshes);
   addOutput(app, a.output, "The .html file to write");
   app.add_option("--weights", a.weights,
                  "The expression shown beside the neutral; the target that moves furthest if not "

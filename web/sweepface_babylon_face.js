@@ -33,6 +33,13 @@ function keepOut({morphTargetManager: manager}, targets) {
   targets.forEach((target, k) => target.influence = influences[k]);
 }
 
+/** Drops tracks that keep targets at 0, so that these can be moved meanwhile. */
+function dropStill(groups, targets) {
+  const isStill = ({animation, target}) => targets.has(target) && animation.getKeys().every(({value}) => value === 0);
+  for (const group of groups)
+    for (const {animation} of group.targetedAnimations.filter(isStill)) group.removeTargetedAnimation(animation);
+}
+
 /** The meshes that Babylon.js made of each part, as a map from parts; several where several nodes show it. */
 function meshesOf({meshes}, parts) {
   const made = new Map();  // by pointers into the JSON
@@ -74,7 +81,6 @@ export class SceneFace extends movedByWeights(Object) {
   #arrays;
   #runs = new Map();
   #meshes = new Map();  // the run of each
-  #influences = new Set();
   #leave;
 
   constructor(face, container, scene, name) {
@@ -122,14 +128,15 @@ export class SceneFace extends movedByWeights(Object) {
     const follower = (mesh, names, more) => {
       return {mesh: {morphTargetInfluences: influencesOf(targetsOf(mesh))}, targets: numbers(names), ...more};
     };
-    const followers = [];
+    const followers = [], all = new Set();
     for (const [part, meshes] of made)
       for (const mesh of meshes) {
         const targets = targetsOf(mesh);
         keepOut(mesh, targets);
-        for (const target of targets) this.#influences.add(target);
+        for (const target of targets) all.add(target);
         followers.push(follower(mesh, part.names));
       }
+    dropStill(this.#container.animationGroups, all);
     for (const mesh of this.#container.meshes.filter((each) => !this.#meshes.has(each) && each.morphTargetManager))
       followers.push(follower(mesh, targetsOf(mesh).map(({name}) => name), {onlyFollows: true}));
     this[begin](face, followers, true);
@@ -138,9 +145,6 @@ export class SceneFace extends movedByWeights(Object) {
 
   /** The meshes that show the face. */
   get meshes() { return [...this.#meshes.keys()]; }
-
-  /** The targets of the meshes, which hold influences. */
-  get influences() { return this.#influences; }
 
   [show]() {
     const {positions, normals} = this.#arrays;

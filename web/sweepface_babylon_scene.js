@@ -40,13 +40,6 @@ async function containerOf(scene, world, options, name) {
   }
 }
 
-/** Drops tracks that keep targets of the face at 0, so that these can be moved meanwhile. */
-function dropStill(groups, targets) {
-  for (const group of groups)
-    for (const {animation, target} of [...group.targetedAnimations])
-      if (targets.has(target) && animation.getKeys().every(({value}) => value === 0)) group.removeTargetedAnimation(animation);
-}
-
 async function importFace(given, load, options, world, rootUrl) {
   const {pluginOptions, ...others} = options, name = others.name || 'The face';
   const bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
@@ -59,7 +52,6 @@ async function importFace(given, load, options, world, rootUrl) {
     container = await containerOf(scene, world, {pluginOptions, rootUrl}, name);
     if (world.isDisposed) throw new Error('The scene was disposed of while the face was loading.');
     const made = new SceneFace(face, container, scene, name);
-    dropStill(container.animationGroups, made.influences);
     container.addAllToScene();
     const {meshes, transformNodes, skeletons, animationGroups, lights, cameras} = container;
     return {face: made, container, meshes, transformNodes, skeletons, animationGroups, lights, cameras};

@@ -1,6 +1,6 @@
 import type {Bytes, Drive, Region, Sweepface, Weights} from './sweepface.js';
 
-/** A face, or a mesh of sweepface/three, sweepface/gpu, sweepface/webgpu or sweepface/babylon. */
+/** A face, or a mesh of sweepface/three, sweepface/gpu, sweepface/webgpu or sweepface/babylon, or the face of a scene. */
 export type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'> &
   Partial<Pick<Sweepface, 'regions'>>;
 

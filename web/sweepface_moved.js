@@ -18,21 +18,27 @@ export const isGone = Symbol('isGone'), release = Symbol('release');
 export const movedByWeights = (Base) => class extends Base {
   #moving = false;
   #isGone = false;
+  #companions = [];  // likewise, of what is not the face, and the weights that they were last written for
   #followers = [];  // meshes, for each influence the number of its target, and the influences as they were last written
   #expression = {};  // a new object whenever weights or eyes are set
   #shown;
 
   /**
    * `meshes` have influences, the k-th of the target number `targets[k]`, which is -1 if the face has no such target.
-   * They move the face, unless they only follow it. If `isPosed`, the face takes its weights from these.
+   * They move the face, unless they only follow it, until something else moves them. If `isPosed`, the face takes its
+   * weights from these.
    */
   [begin](face, meshes, isPosed = false) {
     this.face = face;
-    this.#followers = meshes.map(({mesh, targets, onlyFollows = false}) => {
-      return {mesh, targets, onlyFollows, told: targets.map(() => 0)};
-    });
+    this.#followers = meshes.filter(({onlyFollows}) => !onlyFollows)
+        .map(({mesh, targets}) => ({mesh, targets, told: targets.map(() => 0)}));
     this.#moving = face.advance(0);
     if (isPosed) this[takeInfluences]();
+    const weights = [...face.weightValues];
+    this.#companions = meshes.filter(({onlyFollows}) => onlyFollows).map(({mesh, targets}) => {
+      const told = targets.map((_, k) => mesh.morphTargetInfluences[k]);
+      return {mesh, targets: [...targets], told, weights: targets.map((target) => weights[target])};
+    });
     this.#tellInfluences();
   }
 
@@ -87,8 +93,8 @@ export const movedByWeights = (Base) => class extends Base {
   /** Sets the weights whose influences others have set. Ignores values that are no weights, which others may write. */
   [takeInfluences]() {
     const set = [];
-    for (const {mesh: {morphTargetInfluences: influences}, targets, onlyFollows, told} of this.#followers)
-      for (let k = 0; influences && !onlyFollows && k < told.length; ++k)
+    for (const {mesh: {morphTargetInfluences: influences}, targets, told} of this.#followers)
+      for (let k = 0; influences && k < told.length; ++k)
         if (influences[k] !== told[k] && targets[k] >= 0 && isWeight(influences[k])) set.push([targets[k], influences[k]]);
     if (set.length === 0) return;
     const {names} = this.face;
@@ -107,7 +113,18 @@ export const movedByWeights = (Base) => class extends Base {
         told[k] = influences[k];  // which may be rounded, or missing
       }
     }
+    for (const companion of this.#companions) this.#tellCompanion(companion, weights);
     this.#expression = {};
+  }
+
+  /** Copies weights that have changed to the influences of what is not the face, except those that others have set. */
+  #tellCompanion({mesh: {morphTargetInfluences: influences}, targets, told, weights}, values) {
+    for (let k = 0; influences && k < targets.length; ++k) {
+      if (influences[k] !== told[k]) targets[k] = -1;
+      if (targets[k] < 0 || values[targets[k]] === weights[k]) continue;
+      Reflect.set(influences, k, weights[k] = values[targets[k]]);
+      told[k] = influences[k];
+    }
   }
 
   /**

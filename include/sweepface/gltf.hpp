@@ -15,10 +15,11 @@
 
 namespace sweepface {
 
-/// The rig in a .glb or .gltf file: all primitives that have morph targets, or all primitives if
-/// none has. Its vertices are those of the primitives, one after another, in the scene's space.
-/// Quads are recovered from triangles. Messages call the file `name`. External buffers and images
-/// are read only from `folder`, and not at all if that is empty.
+/// The rig in a .glb or .gltf file: the meshes that `options` choose, or all primitives shown that
+/// have morph targets, or all primitives if none has. Its vertices are those of the primitives, one
+/// after another, in the scene's space. Quads are recovered from triangles. Messages call the file
+/// `name`. External buffers and images are read only from `folder`, and not at all if that is
+/// empty.
 Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
                             const std::filesystem::path& folder, const SourceOptions& options = {});
 

@@ -37,8 +37,8 @@ Result<MeshRig> readRig(const std::filesystem::path& neutral,
 struct SourceOptions {
   /// Whether what a file holds besides the rig is checked and returned.
   bool withScene = true;
-  /// Of a .glb or .gltf: the face is only what nodes of these names show, and those below them, or
-  /// meshes of these names. Empty: what docs/glb.md says.
+  /// Of a .glb or .gltf: the face is what nodes of these names show, or else meshes of these names,
+  /// or else what nodes below show. Empty: what the scene shows and what morphs (docs/glb.md).
   std::vector<std::string> meshes{};
 };
 

@@ -159,8 +159,7 @@ class Animator {
     const Json& json = scene_.document.list("nodes")[node];
     const auto mesh = findIndex(json, "mesh", moved_.size());
     if (!mesh || !movesAny(moved_[*mesh])) return {};
-    const Json& posed = find(json, "weights") ? json : scene_.document.list("meshes")[*mesh];
-    const auto sampler = samplerOf(*mesh, restOf(posed, moved_[*mesh]));
+    const auto sampler = samplerOf(*mesh, restOf(json, *mesh));
     if (!sampler) return std::unexpected(sampler.error());
     animation_["channels"].push_back(
         {{"sampler", *sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
@@ -207,8 +206,11 @@ class Animator {
   }
 
   /// The weights that targets keep where the animation does not move them.
-  static std::vector<double> restOf(const Json& posed, const std::vector<Index>& moved) {
-    std::vector<double> rest = weightsOf(posed, moved.size());
+  std::vector<double> restOf(const Json& node, std::size_t mesh) const {
+    const std::vector<Index>& moved = moved_[mesh];
+    std::vector<double> rest(moved.size());
+    for (const Json* const posed : {&scene_.document.list("meshes")[mesh], &node})
+      if (auto own = weightsOf(*posed, moved.size())) rest = std::move(*own);
     for (std::size_t t = 0; t < moved.size(); ++t)
       if (moved[t] >= 0) rest[t] = 0;
     return rest;
@@ -258,17 +260,18 @@ void setWeights(BoundScene& scene, const std::vector<double>& weights) {
   const std::vector<std::vector<Index>> moved = movedTargets(scene);
   const auto set = [&](Json& holder, const std::vector<Index>& targets) {
     if (!movesAny(targets)) return;
-    std::vector<double> list = weightsOf(holder, targets.size());
+    std::vector<double> list =
+        weightsOf(holder, targets.size()).value_or(std::vector<double>(targets.size()));
     for (std::size_t t = 0; t < targets.size(); ++t)
       if (targets[t] >= 0) list[t] = weights[targets[t]];
     holder["weights"] = list;
   };
   Json& json = scene.document.json;
-  for (std::size_t m = 0; m < moved.size(); ++m)
-    set(json["meshes"][m], moved[m]);
+  for (std::size_t m = 0; m < moved.size(); ++m) set(json["meshes"][m], moved[m]);
   for (std::size_t n = 0; n < scene.document.list("nodes").size(); ++n)
-    if (Json& node = json["nodes"][n]; find(node, "weights"))  // which override those of its mesh
-      if (const auto mesh = findIndex(node, "mesh", moved.size())) set(node, moved[*mesh]);
+    if (Json& node = json["nodes"][n]; const auto mesh = findIndex(node, "mesh", moved.size()))
+      if (weightsOf(node, moved[*mesh].size()))  // which override those of its mesh
+        set(node, moved[*mesh]);
 }
 
 }  // namespace sweepface::gltf

@@ -25,34 +25,40 @@ bool isNamed(const Json& thing, std::string_view name) {
   return own && own->is_string() && own->get_ref<const std::string&>() == name;
 }
 
-/// What can be chosen, for messages.
-std::string namesIn(const Json& meshes) {
+/// What can be chosen, for messages: the objects that show meshes, or else meshes.
+std::string namesIn(const Document& document) {
   std::vector<std::string> names;
-  for (const Json& mesh : meshes)
-    if (const Json* const name = find(mesh, "name"); name && name->is_string())
+  const auto add = [&](const Json& thing) {
+    if (const Json* const name = find(thing, "name"); name && name->is_string())
       names.push_back(io::inQuotes(name->get_ref<const std::string&>()));
-  return names.empty() ? "its meshes have no names; give them some"
-                       : "its meshes are " + io::fewOf(names, 12);
+  };
+  for (const Json& node : document.list("nodes"))
+    if (find(node, "mesh")) add(node);
+  if (names.empty()) std::ranges::for_each(document.list("meshes"), add);
+  if (!names.empty()) return "there are " + io::fewOf(names, 12);
+  return fmt::format("its {} meshes have none, but numbers from 0", document.list("meshes").size());
 }
 
-/// Chooses what one name stands for.
-Result<void> addNamed(const Document& document, const std::string& name,
-                      std::vector<bool>& isChosen) {
+/// The meshes that one name stands for; none if it is nothing's.
+std::vector<std::size_t> named(const Document& document, const std::string& name) {
   const Json &meshes = document.list("meshes"), &nodes = document.list("nodes");
-  std::vector<std::size_t> roots;
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (isNamed(nodes[n], name)) roots.push_back(n);
-  bool isFound = false;
-  const auto add = [&](std::size_t mesh) { isChosen[mesh] = isFound = true; };
+  std::vector<std::size_t> shown, own, roots;
+  const auto meshOf = [&](std::size_t n) { return findIndex(nodes[n], "mesh", meshes.size()); };
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (!isNamed(nodes[n], name)) continue;
+    roots.push_back(n);
+    if (const auto mesh = meshOf(n)) shown.push_back(*mesh);
+  }
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    if (isNamed(meshes[m], name)) own.push_back(m);
+  if (!shown.empty()) return shown;
+  if (!own.empty()) return own;
   const std::vector<bool> isBelow = nodesBelow(document, roots);
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (const auto mesh = findIndex(nodes[n], "mesh", meshes.size()); mesh && isBelow[n])
-      add(*mesh);
-  for (std::size_t m = 0; m < meshes.size() && !isFound; ++m)
-    if (isNamed(meshes[m], name)) add(m);
-  if (isFound) return {};
-  return fail(fmt::format("no mesh and no node with meshes is named {}; {}.", io::inQuotes(name),
-                          namesIn(meshes)));
+    if (const auto mesh = meshOf(n); mesh && isBelow[n]) shown.push_back(*mesh);
+  const auto number = io::toNumber<std::size_t>(name);
+  if (shown.empty() && number && *number < meshes.size()) shown.push_back(*number);
+  return shown;
 }
 
 }  // namespace
@@ -75,8 +81,13 @@ Result<std::vector<bool>> chosenMeshes(const Document& document) {
 
 Result<void> chooseByName(Document& document, std::span<const std::string> names) {
   std::vector<bool> isChosen(document.list("meshes").size());
-  for (const std::string& name : names)
-    if (auto ok = addNamed(document, name, isChosen); !ok) return ok;
+  for (const std::string& name : names) {
+    const std::vector<std::size_t> found = named(document, name);
+    if (found.empty())
+      return fail(fmt::format("no object with meshes and no mesh is named {}; {}.",
+                              io::inQuotes(name), namesIn(document)));
+    for (const std::size_t mesh : found) isChosen[mesh] = true;
+  }
   choose(document.json, isChosen);
   return {};
 }

@@ -15,8 +15,8 @@ namespace sweepface::gltf {
 /// [meshes] whether each was chosen; empty if there was no choice.
 Result<std::vector<bool>> chosenMeshes(const Document& document);
 
-/// Chooses the meshes that nodes of these names show, and nodes below them; or else the meshes of
-/// these names.
+/// Chooses the meshes that nodes of these names show; or else meshes of these names; or else what
+/// nodes below those of these names show; or else meshes of these numbers.
 Result<void> chooseByName(Document& document, std::span<const std::string> names);
 
 /// If the scene that viewers show has some of these meshes, but not all, chooses those that it has.

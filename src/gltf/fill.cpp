@@ -18,6 +18,8 @@ class Packer {
   Packer(const Affine& world, const Encoding& encoding, const std::vector<Index>& places)
       : world_(world), fromScene_(world.inverse()), encoding_(encoding), places_(places) {}
 
+  const std::vector<Index>& places() const { return places_; }
+
   Column positions(const std::vector<Vec3>& points) {
     return packed([&](Index place) {
       const Vec3 p = fromScene_.point(points[place]);
@@ -183,11 +185,28 @@ class Filler {
 
   void evaluate(std::size_t target, std::vector<Morph>& morphs) const {
     const bool normals = std::ranges::any_of(morphs, [](const Morph& m) { return !!m.normals; });
-    const MorphShape shape = shapes_.target(scene_.targets[target], normals);
+    MorphShape shape = shapes_.target(scene_.targets[target], normals);
+    keepStill(target, shape);
     for (Morph& m : morphs) {
       m.positions = packers_[m.run].differences(shape.positions);
       if (m.normals)
         m.normals = packers_[m.run].normalDifferences(shapes_.neutral().normals, shape.normals);
+    }
+  }
+
+  /// What a mesh without this target has in common with others stays where it is: the surface moves
+  /// it by up to the tolerance, and there would be gaps.
+  void keepStill(std::size_t target, MorphShape& shape) const {
+    const auto has = [&](const Run& run) {
+      const auto& own = scene_.parts.meshes[run.rigMesh].targets;
+      return std::ranges::find(own, target) != own.end();
+    };
+    for (std::size_t r = 0; r < packers_.size(); ++r) {
+      if (has(scene_.parts.runs[r])) continue;
+      for (const Index place : packers_[r].places()) {
+        shape.positions[place] = {};
+        if (!shape.normals.empty()) shape.normals[place] = {};
+      }
     }
   }
 

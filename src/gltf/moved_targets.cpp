@@ -23,8 +23,10 @@ std::vector<std::vector<Index>> movedTargets(const BoundScene& scene) {
   std::vector<std::vector<Index>> moved(meshes.size());
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     moved[m].resize(targetCount(meshes[m]), -1);
-    const Json* const names = moved[m].empty() ? nullptr : targetNames(meshes[m], 0);
-    for (std::size_t t = 0; names && t < std::min(moved[m].size(), names->size()); ++t)
+    const Json* const extras = find(meshes[m], "extras");
+    const Json* const names = extras ? find(*extras, "targetNames") : nullptr;
+    if (!names || !names->is_array() || names->size() != moved[m].size()) continue;
+    for (std::size_t t = 0; t < names->size(); ++t)
       if (const Json& name = (*names)[t]; name.is_string())
         if (const auto known = numbers.find(name.get_ref<const std::string&>());
             known != numbers.end())
@@ -37,11 +39,11 @@ std::vector<std::vector<Index>> movedTargets(const BoundScene& scene) {
   return moved;
 }
 
-std::vector<double> weightsOf(const Json& holder, std::size_t targets) {
+std::optional<std::vector<double>> weightsOf(const Json& holder, std::size_t targets) {
   const Json& list = listOf(holder, "weights");
-  std::vector<double> weights(targets);
-  for (std::size_t t = 0; t < std::min(targets, list.size()); ++t)
-    if (list[t].is_number()) weights[t] = list[t].get<double>();
+  if (list.size() != targets) return std::nullopt;
+  std::vector<double> weights;
+  for (const Json& weight : list) weights.push_back(weight.is_number() ? weight.get<double>() : 0);
   return weights;
 }
 

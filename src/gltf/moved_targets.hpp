@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gltf/bound_scene.hpp"
@@ -11,7 +12,7 @@ namespace sweepface::gltf {
 /// morphs with a face stay together.
 std::vector<std::vector<Index>> movedTargets(const BoundScene& scene);
 
-/// [targets] the weights that a mesh or a node has, with 0 for those that it lacks.
-std::vector<double> weightsOf(const Json& holder, std::size_t targets);
+/// [targets] the weights that a mesh or a node has, if there is one for each target.
+std::optional<std::vector<double>> weightsOf(const Json& holder, std::size_t targets);
 
 }  // namespace sweepface::gltf

@@ -19,14 +19,6 @@ std::string placeOf(const Document& document, std::size_t mesh) {
   return fmt::format("mesh {} {}", mesh, io::inQuotes(name->get_ref<const std::string&>()));
 }
 
-const Json* targetNames(const Json& mesh, std::size_t primitive) {
-  for (const Json* const holder : {&mesh, &listOf(mesh, "primitives")[primitive]})
-    if (const Json* const extras = find(*holder, "extras"))
-      if (const Json* const list = find(*extras, "targetNames"); list && list->is_array())
-        return list;
-  return nullptr;
-}
-
 namespace {
 
 struct Placement {
@@ -113,6 +105,8 @@ class PartFinder {
         if (!found) return std::unexpected(found.error());
         (morphs ? morphing : all)[m] = std::move(*found);
       }
+      if (!isChosen->empty() && all[m].empty())
+        return fail(placeOf(document_, m) + ": it has no triangles; choose other meshes.");
     }
     const auto isNone = [](const auto& list) { return list.empty(); };
     if (isChosen->empty()) return std::ranges::all_of(morphing, isNone) ? all : morphing;
@@ -209,7 +203,11 @@ class PartFinder {
 
   /// Names of a mesh's targets: in its extras, as is customary, or in those of its primitives.
   std::vector<std::string> namesOf(std::size_t mesh, const Primitive& primitive) {
-    const Json* const given = targetNames(meshes_[mesh], primitive.index);
+    const Json* given = nullptr;
+    for (const Json* holder : {&meshes_[mesh], &meshes_[mesh]["primitives"][primitive.index]})
+      if (const Json* extras = gltf::find(*holder, "extras"); extras && !given)
+        if (const Json* list = gltf::find(*extras, "targetNames"); list && list->is_array())
+          given = list;
     std::vector<std::string> names(primitive.targets.size());
     for (std::size_t t = 0; given && t < std::min(names.size(), given->size()); ++t)
       if (const Json& name = (*given)[t]; name.is_string()) names[t] = name.get<std::string>();

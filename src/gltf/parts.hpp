@@ -61,9 +61,6 @@ Result<Parts> findPartsAnywhere(const Document& document);
 /// The JSON of a part's primitive.
 const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part);
 Json& primitiveOf(Document& document, const Parts& parts, const Part& part);
-/// The list of the names of a mesh's targets: in its extras, as is customary, or in those of one of
-/// its primitives; or null.
-const Json* targetNames(const Json& mesh, std::size_t primitive);
 /// Whether an extension of a primitive may depend on the order of its vertices or triangles.
 bool countsOnOrder(std::string_view extension);
 /// "mesh 0 'head'" and "mesh 0 'head', primitive 1", for messages.

@@ -202,8 +202,9 @@ Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> 
     return RigSource{std::move(*rig), {}, {}};
   }
   if (!targets.empty())
-    return fail(fmt::format("{} holds a face and its expressions; name it without {}.",
-                            neutral.string(), targets[0].string()));
+    return fail(fmt::format("{} holds a face and its expressions; name it without {}{}.",
+                            neutral.string(), targets[0].string(),
+                            options.meshes.empty() ? "" : ", or with --mesh before each mesh"));
   const Result<std::string> bytes = readFile(neutral);
   if (!bytes) return std::unexpected(bytes.error());
   return parseGltf(*bytes, neutral.string(), folderOf(neutral), options);

@@ -22,12 +22,14 @@ std::string leftOutOfUsd(const Rig& rig) {
         gltf::find(gltf::primitiveOf(*document, *parts, part), "attributes");
     return attributes && attributes->contains("COLOR_0");
   });
+  const auto others = gltf::otherPrimitives(*document, *parts);
+  const bool hasOthers = !gltf::leftOut(*document, *parts).empty() ||
+                         !std::ranges::all_of(others, &std::set<std::size_t>::empty);
   std::vector<std::string> kinds;
-  for (const auto& [isThere, kind] :
-       {std::pair(!gltf::leftOut(*document, *parts).empty(), "other meshes or copies"),
-        {has("skins"), "skins"},
-        {has("animations"), "animations"},
-        {isColoured, "colours of vertices"}})
+  for (const auto& [isThere, kind] : {std::pair(hasOthers, "other meshes or copies"),
+                                      {has("skins"), "skins"},
+                                      {has("animations"), "animations"},
+                                      {isColoured, "colours of vertices"}})
     if (isThere) kinds.emplace_back(kind);
   if (kinds.empty()) return {};
   return fmt::format(

@@ -117,8 +117,11 @@ TEST_F(GltfSource, MayBeSomeOfItsMeshes) {
 
 TEST_F(GltfSource, IsRefusedWithoutAMeshOfTheName) {
   EXPECT_TRUE(fails("convert face.glb -o face.sweep --mesh haed",
-                    "face.glb: no mesh and no node with meshes is named 'haed'; its meshes are "
+                    "face.glb: no object with meshes and no mesh is named 'haed'; there are "
                     "'head'."));
+  EXPECT_TRUE(fails("convert face.glb -o face.sweep --mesh head hat",
+                    "name it without hat, or with --mesh before each mesh."));
+  EXPECT_TRUE(fails("report face.sweep -o a.html --mesh head", "--mesh requires NEUTRAL", 2));
   EXPECT_TRUE(fails("convert face.glb -o face.sweep --mesh ''", "--mesh: This is empty", 2));
   folder.file("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   EXPECT_TRUE(fails("convert quad.obj -o face.sweep --mesh quad",

@@ -8,7 +8,7 @@ namespace {
 using namespace testing;
 using Names = std::vector<std::string>;
 
-/// The small face, its teeth with "open" in a group of the jaw, a coarser face with "open" and one
+/// The small face, its teeth with "open" in a group "jaw", a coarser face with "open" and one
 /// of its own, "far", and a hat without targets; all of them shown, but not the coarse one.
 Glb character() {
   Glb glb = smallFace();
@@ -88,9 +88,18 @@ TEST(ChosenMeshes, AreNamedByTheirOwnNamesWhereNoNodeIs) {
   Glb glb = character();
   glb.json["nodes"][4]["name"] = "head";
   EXPECT_EQ(meshesOf(chosen(glb, {"head"})), (Names{"hat"}));
-  glb.json["nodes"][2] = {{"name", "head"}};  // which shows nothing
+  glb.json["nodes"][2]["name"] = "head";  // as a bone with teeth on it may be called
   glb.json["nodes"][4]["name"] = "hat";
   EXPECT_EQ(meshesOf(chosen(glb, {"head"})), (Names{"head"}));
+  for (Json& mesh : glb.json["meshes"]) mesh["name"] = "Mesh";
+  EXPECT_EQ(chosen(glb, {"Mesh"}).rig.neutral.positions.size(), 36u) << "all that are called so";
+}
+
+TEST(ChosenMeshes, AreNumberedWhereNothingIsCalledSo) {
+  EXPECT_EQ(meshesOf(chosen(character(), {"2"})), (Names{"head_lod"}));
+  Glb glb = character();
+  glb.json["nodes"][4]["name"] = "2";
+  EXPECT_EQ(meshesOf(chosen(glb, {"2"})), (Names{"hat"}));
 }
 
 TEST(ChosenMeshes, AreInTheOrderOfTheFile) {
@@ -113,20 +122,22 @@ TEST(ChosenMeshes, AreRefusedWhereNothingIsCalledSo) {
     return failsWith(parseGltf(glb.bytes(), "face.glb", {}, {.meshes = {"Face", "jam"}}), {why});
   };
   EXPECT_TRUE(refuse(character(),
-                     "face.glb: no mesh and no node with meshes is named 'jam'; its meshes are "
-                     "'head', 'teeth', 'head_lod', 'hat'."));
+                     "face.glb: no object with meshes and no mesh is named 'jam'; there are "
+                     "'Face', 'teeth', 'coarse', 'hat'."));
   Glb glb = character();
   glb.add("nodes", {{"name", "jam"}});
-  EXPECT_TRUE(refuse(glb, "no node with meshes is named 'jam'"));
+  EXPECT_TRUE(refuse(glb, "no mesh is named 'jam'; there are 'Face',"));
+  for (Json& node : glb.json["nodes"]) node.erase("name");
+  EXPECT_TRUE(refuse(glb, "no mesh is named 'Face'; there are 'head', 'teeth', 'head_lod', 'hat'"));
   for (Json& mesh : glb.json["meshes"]) mesh.erase("name");
-  EXPECT_TRUE(refuse(glb, "named 'jam'; its meshes have no names; give them some."));
+  EXPECT_TRUE(refuse(glb, "named 'Face'; its 4 meshes have none, but numbers from 0."));
 }
 
 TEST(ChosenMeshes, AreRefusedWithoutTriangles) {
   Glb glb = character();
   glb.primitive(3)["mode"] = 1;
-  EXPECT_TRUE(failsWith(parseGltf(glb.bytes(), "face.glb", {}, {.meshes = {"hat"}}),
-                        {"face.glb: it has no triangles"}));
+  EXPECT_TRUE(failsWith(parseGltf(glb.bytes(), "face.glb", {}, {.meshes = {"Face", "hat"}}),
+                        {"face.glb: mesh 3 'hat': it has no triangles; choose other meshes."}));
 }
 
 Rig rigOf(const Glb& glb, const Names& names = {}) {
@@ -174,6 +185,32 @@ TEST(ChosenMeshes, LeaveOthersAsTheyAre) {
             before.vectors(before.morph(1, "POSITION", 2)));
 }
 
+/// The surface moves a rim by up to the tolerance in a target that one of two meshes lacks.
+TEST(ChosenMeshes, StayTogetherWhereTheyMeet) {
+  Glb glb = smallFace();
+  std::vector<Vec3> away = sheetPositions(), deltas = openDeltas();
+  for (Vec3& p : away) p = {p.x - 2, p.y, 0.25 * (2 - p.x) * p.y};
+  for (std::size_t v = 0; v < 9; v += 3) deltas[v] = {};  // where they meet
+  glb.primitive()["targets"][0]["POSITION"] = glb.addVectors(deltas);
+  Json body = glb.primitive();
+  body.erase("targets");
+  body["attributes"]["POSITION"] = glb.addVectors(away);
+  glb.add("nodes",
+          {{"mesh", glb.add("meshes", {{"name", "body"}, {"primitives", Json::array({body})}})}});
+  const RigSource source = chosen(glb, {"head", "body"});
+  Rig rig = converted(source.rig, 0.05);
+  rig.scene = source.scene;
+  ASSERT_EQ(rig.source.gridVertex[0], rig.source.gridVertex[11]);
+  for (Target& target : rig.targets)  // as if it were packed
+    for (Vec3& difference : target.difference) difference += {0.02, 0, 0};
+  const Written out = write(rig, {.morphNormals = true});
+  for (const char* attribute : {"POSITION", "NORMAL"}) {
+    const std::vector<Vec3> moved = out.vectors(out.morph(0, attribute));
+    for (std::size_t v = 0; v < 9; v += 3) EXPECT_EQ(moved[v], Vec3{}) << attribute;
+    EXPECT_NE(moved[4], Vec3{}) << attribute;
+  }
+}
+
 TEST(ChosenMeshes, OfADamagedSceneAreRefused) {
   for (const Json& choice : {Json("all"), Json::object({{"meshes", 1}}),
                              Json::object({{"meshes", {4}}}), Json::object({{"meshes", {-1}}})}) {
@@ -215,8 +252,19 @@ TEST(MovedTargets, OfOtherMeshesMoveLikeThoseOfTheSameNames) {
                                                   {5, Values{0.25, 0.5}}}));
 }
 
+/// Weights that are not one for each target mean nothing.
+TEST(MovedTargets, RestOnlyAtWeightsOfAll) {
+  Glb source = character();
+  source.json["nodes"][3]["weights"] = {0.5};
+  const Rig rig = rigOf(source, {"Face"});
+  const Written glb = write(rig, {.weights = {0.75, 0}});
+  EXPECT_EQ(glb.json["nodes"][3]["weights"], Json::array({0.5}));
+  EXPECT_EQ(glb.json["meshes"][2]["weights"], Json({0.75, 0.25}));
+}
+
 TEST(MovedTargets, OfOtherMeshesWithoutNamesStay) {
   Glb source = character();
+  source.json["meshes"][2]["extras"]["targetNames"].push_back("one too many");
   source.json["meshes"][0].erase("extras");
   source.json["meshes"][1].erase("extras");
   const Rig rig = rigOf(source, {"Face"});
@@ -224,6 +272,7 @@ TEST(MovedTargets, OfOtherMeshesWithoutNamesStay) {
   const Json meshes = write(rig, {.weights = {0.5, 0.5}}).json["meshes"];
   EXPECT_EQ(meshes[0]["weights"], Json({0.5, 0.5}));
   EXPECT_FALSE(meshes[1].contains("weights"));
+  EXPECT_EQ(meshes[2]["weights"], Json({0.0, 0.25}));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(Touching, MeshesAreNamedOnce) {
   EXPECT_EQ(warnings[1],
             "Slits as wide as the tolerance may show between the face and mesh 1 'body', primitive "
             "0; to close them, have that be part of the face: choose all meshes of the face by "
-            "their names (--mesh).");
+            "their names (--mesh), and give --tolerance, as what is assumed grows with them.");
 }
 
 TEST(Touching, MeshesShareSeveralPlacesOfTheRimThatNeverMove) {

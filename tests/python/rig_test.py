@@ -390,7 +390,7 @@ class Conversion(FaceTest):
         self.assertEqual(repr(back), "<sweepface.Meshes: 30 vertices, 20 faces, 1 targets>")
         for names in ("face", ["face"]):
             self.assertEqual(len(sweepface.read_meshes(self.path("sheet.glb"), meshes=names).faces), 20)
-        with self.refuses("sheet.glb: no mesh and no node with meshes is named 'head'; its meshes are 'face'."):
+        with self.refuses("sheet.glb: no object with meshes and no mesh is named 'head'; there are 'face'."):
             sweepface.read_meshes(self.path("sheet.glb"), meshes="head")
         with open(self.path("square.obj"), "w") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")

@@ -80,7 +80,7 @@ async function compare(sweep) {
     for (const [name, mesh] of mine) {
       const other = theirs.get(name);
       for (const [target, k] of Object.entries(other.morphTargetDictionary ?? {}))  // a number, if it has no name
-        other.morphTargetInfluences[k] = weights[target in face.names ? face.names[k] : target] ?? other.morphTargetInfluences[k];
+        other.morphTargetInfluences[k] = weights[face.names[target] ?? target] ?? other.morphTargetInfluences[k];
       assertShowsTheSame(mesh, other, name);
     }
   }
@@ -205,16 +205,28 @@ test('targets of other meshes move with those of the face that have the same nam
   const seen = () => eyes.map(({morphTargetInfluences}) => [...morphTargetInfluences]);
   face.setWeights({jaw: 1, smile: 0.75});
   assert.deepEqual(seen(), [[look, 0.75], [look, 0.75]]);
-  eyes[0].morphTargetInfluences[1] = 0;  // which moves the eye alone
+  eyes[0].morphTargetInfluences[1] = 0;  // which moves the eye alone, from now on
   eyes[1].morphTargetInfluences[0] = 0.125;
   face.update();
   assert.equal(face.weights.smile, 0.75);
   face.setWeights({smile: 0.5});
-  assert.deepEqual(seen(), [[look, 0.5], [0.125, 0.5]]);
+  assert.deepEqual(seen(), [[look, 0], [0.125, 0.5]]);
   const {cloneScene} = await import('../sweepface_scene.js'), copy = cloneScene({scene, face, animations: []});
   copy.face.setWeights({smile: 1});
   assert.equal(copy.scene.getObjectByName('eyeL').morphTargetInfluences[1], 1);
-  assert.deepEqual(seen(), [[look, 0.5], [0.125, 0.5]]);
+  assert.deepEqual(seen(), [[look, 0], [0.125, 0.5]]);
+});
+
+test('other meshes are shown as the file shows them until weights change', options, async () => {
+  const {face, scene} = await load(readFileSync(changed((json) => {
+    winking(json);
+    json.meshes[1].weights = [0.5, 0.875];
+    json.meshes[0].extras.targetNames[0] = 'look';
+  }, '--mesh', 'head')));
+  const {morphTargetInfluences: seen} = scene.getObjectByName('eyeL');
+  assert.deepEqual([face.weights, [...seen]], [{look: 0.25, smile: 0}, [0.5, 0.875]]);
+  face.setWeights({look: 1});
+  assert.deepEqual([...seen], [1, 0.875]);
 });
 
 test('parts without normals get none, and extras stay', options, async () => {
