@@ -9,4 +9,5 @@ export const endsOf = (points) => boxOf(points).map((place) => Vector3.FromArray
 export function bound(mesh, ends) {
   for (const info of [mesh, ...mesh.subMeshes ?? []].map((part) => part.getBoundingInfo()))
     if (!info.isLocked) info.reConstruct(...ends, mesh.getWorldMatrix());
+  if (mesh.hasThinInstances && !mesh.getBoundingInfo().isLocked) mesh.thinInstanceRefreshBoundingInfo(true);
 }

@@ -35,9 +35,15 @@ function keepOut({morphTargetManager: manager}, targets) {
 
 /** Drops tracks that keep targets at 0, so that these can be moved meanwhile. */
 function dropStill(groups, targets) {
-  const isStill = ({animation, target}) => targets.has(target) && animation.getKeys().every(({value}) => value === 0);
-  for (const group of groups)
-    for (const {animation} of group.targetedAnimations.filter(isStill)) group.removeTargetedAnimation(animation);
+  const isZero = ({value, inTangent, outTangent}) => value === 0 && !inTangent && !outTangent;
+  const isStill = ({animation, target}) => targets.has(target) && animation.getKeys().every(isZero);
+  for (const group of groups) {
+    const still = group.targetedAnimations.filter(isStill), {isStarted, loopAnimation, speedRatio} = group;
+    if (still.length === 0) continue;
+    if (isStarted) group.stop();  // or what has started goes on
+    for (const {animation} of still) group.removeTargetedAnimation(animation);
+    if (isStarted) group.start(loopAnimation, speedRatio);
+  }
 }
 
 /** The meshes that Babylon.js made of each part, as a map from parts; several where several nodes show it. */
@@ -48,6 +54,10 @@ function meshesOf({meshes}, parts) {
       made.set(pointer, [...made.get(pointer) ?? [], mesh]);
   return new Map(parts.map((part) => [part, made.get(`/meshes/${part.mesh}/primitives/${part.primitive}`) ?? []]));
 }
+
+/** What is wrong with a face whose meshes Babylon.js does not load, as the scene that it shows lacks them. */
+const unshown = (name, how) =>
+  new Error(`${name}: the scene of its file shows ${how} of the meshes of the face; load the face alone by SweepfaceMesh.load.`);
 
 /** Vertices that meshes share: their part of a face's positions and normals. */
 class Run {
@@ -101,15 +111,16 @@ export class SceneFace extends movedByWeights(Object) {
   #fill({json, parts}, made, face, name) {
     const shapeOf = (part) => {
       const [mesh] = made.get(part);
+      if (!mesh) throw unshown(name, 'not all');
       const indices = mesh.isUnIndexed ? undefined : mesh.getIndices();
       return {indices, vertexCount: mesh.getTotalVertices(), mode: json.meshes[part.mesh].primitives[part.primitive].mode};
     };
-    const shown = parts.filter((part) => made.get(part).length > 0);
+    if (parts.every((part) => made.get(part).length === 0)) throw unshown(name, 'none');
     for (const [part, {indices, texcoords}] of leftOf(json, parts, shapeOf, face, name)) {
       const {run} = part;
       if (!this.#runs.has(run)) this.#runs.set(run, new Run(run, this.#arrays));
       const {positions, normals} = this.#runs.get(run);
-      for (const mesh of shown.includes(part) ? made.get(part) : []) {
+      for (const mesh of made.get(part)) {
         const hasNormals = mesh.isVerticesDataPresent(NormalKind);
         if (mesh.geometry) mesh.geometry.useBoundingInfoFromGeometry = false;
         mesh.setVerticesData(PositionKind, positions, true);
@@ -136,8 +147,10 @@ export class SceneFace extends movedByWeights(Object) {
         for (const target of targets) all.add(target);
         followers.push(follower(mesh, part.names));
       }
+    const others = this.#container.meshes.filter((each) => !this.#meshes.has(each) && each.morphTargetManager);
+    for (const target of others.flatMap(targetsOf)) if (index.has(target.name)) all.add(target);
     dropStill(this.#container.animationGroups, all);
-    for (const mesh of this.#container.meshes.filter((each) => !this.#meshes.has(each) && each.morphTargetManager))
+    for (const mesh of others)
       followers.push(follower(mesh, targetsOf(mesh).map(({name}) => name), {onlyFollows: true}));
     this[begin](face, followers, true);
     this.update();

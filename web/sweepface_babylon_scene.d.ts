@@ -1,7 +1,6 @@
 import type {AssetContainer} from '@babylonjs/core/assetContainer.js';
 import type {SceneLoaderPluginOptions} from '@babylonjs/core/Loading/sceneLoader.js';
 import type {AbstractMesh} from '@babylonjs/core/Meshes/abstractMesh.js';
-import type {Mesh} from '@babylonjs/core/Meshes/mesh.js';
 import type {Scene} from '@babylonjs/core/scene.js';
 import type {Bytes, LoadOptions, Moved, Sweepface} from './sweepface.js';
 
@@ -16,7 +15,7 @@ export class SceneFace {
   /** For reading: what is set there does not show. */
   readonly face: Sweepface;
   /** The meshes that show the face, skinned ones included. */
-  readonly meshes: Mesh[];
+  readonly meshes: AbstractMesh[];
   /** Whether time passes with the frames of the scene: true at first. Set it to false where something else advances the
    * face, such as a TimelinePlayer. */
   advancesWithScene: boolean;

@@ -10,6 +10,8 @@ import {isEmpty} from './sweepface_scene_left.js';
 import {checkDetail, checkFit, readScene} from './sweepface_scene_read.js';
 import {bytesOf} from './sweepface_values.js';
 
+export {SceneFace};
+
 /** Targets that hold nothing: Babylon.js makes influences for them. */
 const HOLLOW = () => ({});
 
@@ -34,10 +36,13 @@ function prepared({json, parts}) {
 async function containerOf(scene, world, options, name) {
   const bytes = new Uint8Array(formatGlb({...scene, json: prepared(scene)}));
   try {
-    return await LoadAssetContainerAsync(bytes, world, {...options, pluginExtension: '.glb', name});
+    const container = await LoadAssetContainerAsync(bytes, world, {...options, pluginExtension: '.glb', name});
+    if (!world.isDisposed) return container;
+    container.dispose();
   } catch (cause) {
-    throw new Error(`${name}: its scene cannot be shown: ${cause.message}`, {cause});
+    if (!world.isDisposed) throw new Error(`${name}: its scene cannot be shown: ${cause.message}`, {cause});
   }
+  throw new Error('The scene was disposed of while the face was loading.');
 }
 
 async function importFace(given, load, options, world, rootUrl) {
@@ -50,7 +55,6 @@ async function importFace(given, load, options, world, rootUrl) {
     const scene = await readScene(text, name, {hollow: HOLLOW, alone: 'SweepfaceMesh.load'});
     checkFit(scene, face, name);
     container = await containerOf(scene, world, {pluginOptions, rootUrl}, name);
-    if (world.isDisposed) throw new Error('The scene was disposed of while the face was loading.');
     const made = new SceneFace(face, container, scene, name);
     container.addAllToScene();
     const {meshes, transformNodes, skeletons, animationGroups, lights, cameras} = container;

@@ -65,10 +65,11 @@ function parse(glb) {
 /** A GLB, as an ArrayBuffer. */
 export function formatGlb({json, binary}) {
   const text = new TextEncoder().encode(JSON.stringify(json)), padded = (length) => Math.ceil(length / 4) * 4;
-  const first = padded(text.length), second = padded(binary.length);
-  const glb = new Uint8Array(28 + first + second), view = viewOf(glb);
+  const first = padded(text.length), second = padded(binary.length), hasBinary = binary.length > 0;
+  const glb = new Uint8Array(20 + first + (hasBinary ? 8 + second : 0)), view = viewOf(glb);
   [0x46546c67, 2, glb.length, first, JSON_CHUNK].forEach((number, k) => view.setUint32(4 * k, number, true));
   glb.fill(0x20, 20, 20 + first).set(text, 20);
+  if (!hasBinary) return glb.buffer;
   view.setUint32(20 + first, second, true);
   view.setUint32(24 + first, BINARY_CHUNK, true);
   glb.set(binary, 28 + first);

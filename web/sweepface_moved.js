@@ -18,8 +18,8 @@ export const isGone = Symbol('isGone'), release = Symbol('release');
 export const movedByWeights = (Base) => class extends Base {
   #moving = false;
   #isGone = false;
-  #companions = [];  // likewise, of what is not the face, and the weights that they were last written for
   #followers = [];  // meshes, for each influence the number of its target, and the influences as they were last written
+  #companions = [];  // likewise, of what is not the face, and the weights that they were last written for
   #expression = {};  // a new object whenever weights or eyes are set
   #shown;
 

@@ -10,6 +10,7 @@
 #include "codec/utf8.hpp"
 #include "io/target_shape.hpp"
 #include "io/text.hpp"
+#include "io/vertex_colors.hpp"
 #include "mesh/quads.hpp"
 #include "mesh/weld.hpp"
 #include "parallel/parallel.hpp"
@@ -199,7 +200,12 @@ Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> 
     if (!rig) return std::unexpected(rig.error());
     if (isCutToTriangles(rig->neutral.polygons))
       rig->neutral.polygons = recoverQuads(*rig, weld(*rig)).polygons;
-    return RigSource{std::move(*rig), {}, {}};
+    RigSource source{std::move(*rig), {}, {}};
+    if (io::hasVertexColors(neutral))
+      source.faceWarnings.push_back(
+          fmt::format("The colours of vertices in {} are left out; in a .glb they would be kept.",
+                      neutral.string()));
+    return source;
   }
   if (!targets.empty())
     return fail(fmt::format("{} holds a face and its expressions; name it without {}{}.",

@@ -186,6 +186,26 @@ TEST_F(RigReader, JoinsTrianglesOfDoubledVertices) {
   EXPECT_EQ(facesOf("f 1/1 2/2 3/3\nf 4/2 5/3 6/4\n"), 2) << "a seam of the texture";
 }
 
+TEST_F(RigReader, WarnsOfColoursThatAreLeftOut) {
+  const auto warnings = [&](const std::string& name, const std::string& text) {
+    return readSource(folder.file(name, text), {}).value().faceWarnings;
+  };
+  const std::string faces = "f 1 2 3\n";
+  EXPECT_TRUE(warnings("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 1 1 0 1\n" + faces).empty());
+  const auto left = warnings("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\n" + faces);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_TRUE(left[0].starts_with("The colours of vertices in ") && left[0].contains("a.obj"));
+  const std::string start =
+                        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                        "property float y\nproperty float z\n",
+                    end = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_TRUE(warnings("a.ply", start + end + "0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n").empty());
+  EXPECT_EQ(warnings("a.ply",
+                     start + "property uchar red\n" + end + "0 0 0 9\n1 0 0 9\n1 1 0 9\n3 0 1 2\n")
+                .size(),
+            1u);
+}
+
 TEST_F(RigReader, JoinsTrianglesToQuadsWhereThereIsNothingElse) {
   const auto facesOf = [&](const std::string& faces) {
     const auto source = readSource(folder.file("face.obj", corners + faces), {});

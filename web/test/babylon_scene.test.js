@@ -124,6 +124,13 @@ function changed(change, ...more) {
   return converted(made, ...more);
 }
 
+test('meshes may be turned, mirrored and stretched at once', options, async () => {
+  await compare(changed((json) => {
+    Object.assign(json.nodes[3], {scale: [-1, 2, 3], rotation: [0.1, 0.7, 0.5, 0.5]});
+    json.nodes[4] = {name: 'eyeR', mesh: 1, scale: [-1, 2, 3], rotation: [0.1, 0.7, 0.5, 0.5]};
+  }));
+});
+
 test('primitives may be strips, fans, or without indices', options, async () => {
   await compare(changed((json, builder) => {
     const [head, eye, hat] = json.meshes.map(({primitives: [first]}) => first), {accessors} = json;
@@ -224,10 +231,50 @@ test("the file's animations move the skeleton and the face, except for targets t
   assert.equal((await load(bytes, {})).animationGroups[0].isStarted, true, 'as Babylon.js has it');
 });
 
+/** The model with a smile that is 0 in its animation, and an eye of its own smile, which is 0 there, too. */
+const still = (json, builder) => {
+  const [, eye] = json.meshes, [{samplers, channels}] = json.animations;
+  eye.primitives[0].targets.push(eye.primitives[0].targets[0]);
+  eye.extras.targetNames.push('smile');
+  delete json.nodes[4].weights;
+  samplers[0].output = builder.accessor(new Float32Array([0.25, 0, 0.75, 0]), 1);
+  samplers.push({...samplers[0], output: builder.accessor(new Float32Array([0, 0, 0.5, 0]), 1)});
+  channels.push({sampler: 2, target: {node: 3, path: 'weights'}});
+};
+
+test('an animation that Babylon.js started leaves targets to others that it keeps at 0', options, async () => {
+  const {face, world, meshes, animationGroups: [take]} = await load(readFileSync(changed(still, '--mesh', 'head')), {});
+  const smiles = meshes.filter(({name}) => name.startsWith('eye')).map((mesh) => mesh.morphTargetManager.getTarget(1));
+  assert.equal(take.isStarted, true);
+  face.setWeights({smile: 0.5});
+  for (let k = 0; k < 3; ++k) world.render();
+  assert.equal(face.weights.smile, 0.5);
+  assert.deepEqual(smiles.map(({influence}) => influence), [0.5, 0.5]);
+  assert.ok(face.weights.jawOpen > 0.25);
+});
+
+test('what splines move between two 0s is moved', options, async () => {
+  const {face, animationGroups: [take]} = await load(readFileSync(changed((json, builder) => {
+    const [{samplers: [weights]}] = json.animations, output = [0, 0, 0, 0, 0, 2, 0, -2, 0, 0, 0, 0];
+    Object.assign(weights, {interpolation: 'CUBICSPLINE', output: builder.accessor(new Float32Array(output), 1)});
+  })));
+  take.start();
+  take.goToFrame((take.from + take.to) / 2);
+  face.update();
+  assert.ok(Math.abs(face.weights.smile - 0.5) < 1e-3);
+});
+
 test('disposing of the face takes the scene with it, and disposing of the meshes the face', options, async () => {
   const {face, world} = await load(), rest = [world.meshes, world.materials, world.skeletons, world.animationGroups];
+  const {onAfterAnimationsObservable: passes, onBeforeRenderTargetsRenderObservable: shows} = world;
+  assert.deepEqual([passes.hasObservers(), shows.hasObservers()], [true, true]);
+  face.meshes[0].dispose();
+  face.setWeights({smile: 1});  // the others go on
+  world.render();
   face.dispose();
   assert.deepEqual(rest.map(({length}) => length), [0, 0, 0, 0]);
+  await new Promise((done) => setTimeout(done));  // Babylon.js removes observers later
+  assert.deepEqual([passes.hasObservers(), shows.hasObservers()], [false, false]);
   world.render();
   assert.throws(() => face.names, /disposed of/);
   const other = await load();
@@ -251,9 +298,45 @@ test('what cannot be shown says so', options, async (context) => {
   await fails(readFileSync(changed((json) => json.extensionsRequired = json.extensionsUsed = ['KHR_texture_basisu'])),
               /^avatar: its scene cannot be shown: .*KHR_texture_basisu/,
               {name: 'avatar', pluginOptions: {gltf: {extensionOptions: {KHR_texture_basisu: {enabled: false}}}}});
+  const elsewhere = (json) => {
+    json.extensionsUsed = ['EXT_counts_on_the_order'];
+    json.meshes[1].primitives[0].extensions = {EXT_counts_on_the_order: {}};
+    json.scenes = [{nodes: [0, 1, 5]}, {nodes: [3, 4]}];
+  };
+  const hidden = readFileSync(changed(elsewhere, '--mesh', 'head', '--mesh', 'eye'));
+  await fails(hidden, /^The face: the scene of its file shows not all of the meshes of the face; load the face alone by/);
+  await fails(readFileSync(changed(elsewhere, '--mesh', 'eye')), /^The face: the scene of its file shows none of the meshes/);
   context.mock.method(globalThis, 'fetch', async () => new Response(null, {status: 404}));
   await fails('http://a/avatar.sweep?secret', 'http://a/avatar.sweep cannot be loaded: the server answers 404.');
   assert.deepEqual([scene.meshes.length, scene.materials.length, scene.isReady()], [0, 0, true]);
+});
+
+test('what fails halfway leaves nothing behind', options, async () => {
+  const {Sweepface} = await import('../sweepface.js'), world = newScene(), faces = [];
+  const keep = async (...given) => (faces.push(await Sweepface.load(...given)), faces.at(-1));
+  const painted = async (...given) => {
+    const face = await keep(...given), parts = face.parts.map((part) => ({...part, material: 'paint'}));
+    return Object.defineProperty(face, 'parts', {value: parts});
+  };
+  const other = async () => keep(readFileSync(sample));
+  const late = async (...given) => (world.dispose(), keep(...given));
+  for (const [how, message] of [[painted, /^The face: the face has other materials than its scene; /],
+                                [other, /^The face: the face and its scene do not fit; /],
+                                [late, 'The scene was disposed of while the face was loading.']]) {
+    await assert.rejects(importScene(bytes, world, {load: how}), {message});
+    assert.throws(() => faces.at(-1).names, /disposed of/);
+    const {meshes, geometries, skeletons, materials, morphTargetManagers} = world;
+    assert.deepEqual([meshes, geometries, skeletons, materials, morphTargetManagers].map(({length}) => length), [0, 0, 0, 0, 0]);
+  }
+});
+
+test('images beside the scene are looked for beside the file', options, async (context) => {
+  const apart = readFileSync(changed((json) => json.images[0] = {uri: 'skin.png'})), asked = [];
+  context.mock.method(globalThis, 'fetch', async () => new Response(apart));
+  const preprocessUrlAsync = async (url) => (asked.push(url), 'data:image/png;base64,AA==');
+  const pluginOptions = {gltf: {animationStartMode: 0, preprocessUrlAsync}};
+  await importScene('http://a/models/x.sweep?of=1/2', newScene(), {pluginOptions}).catch(() => {});
+  assert.deepEqual(asked, ['http://a/models/skin.png']);
 });
 
 test('it loads from a URL, in a worker, too, and is waited for', options, async (context) => {

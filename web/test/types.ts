@@ -4,7 +4,7 @@ import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import type {Scene as BabylonScene} from '@babylonjs/core/scene.js';
 import {StandardMaterial} from '@babylonjs/core/Materials/standardMaterial.js';
 import {SweepfaceMesh as BabylonMesh} from 'sweepface/babylon';
-import {importScene, type SceneFace as BabylonFace} from 'sweepface/babylon-scene';
+import {importScene, SceneFace as BabylonFace} from 'sweepface/babylon-scene';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region, type Weights} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
@@ -86,7 +86,7 @@ export async function useBabylonScene(scene: BabylonScene, bytes: ArrayBuffer): 
   made.moveTo({jawOpen: 0.7}, {kind: 'spring', frequency: 3});
   made.advancesWithScene = false;
   idle?.start(true);
-  console.log(moving, made.meshes[0]?.morphTargetManager, meshes.length, skeletons.length, container.scene === scene);
+  console.log(moving, made.meshes[0]?.morphTargetManager, made instanceof BabylonFace, meshes.length, skeletons.length, container.scene === scene);
   console.log(new ClipPlayer(made, readClip('')).match.undriven, (await importScene(bytes)).face.pose);
   // @ts-expect-error The meshes of a scene have the vertices of their source.
   await importScene(bytes, scene, {lod: 2});
