@@ -56,8 +56,8 @@ function meshesOf({meshes}, parts) {
 }
 
 /** What is wrong with a face whose meshes Babylon.js does not load, as the scene that it shows lacks them. */
-const unshown = (name, how) =>
-  new Error(`${name}: the scene of its file shows ${how} of the meshes of the face; load the face alone by SweepfaceMesh.load.`);
+const unshown = (name, how) => new Error(`${name}: the scene of its file shows ${how} of the meshes of the face; ` +
+                                         'load the face alone by SweepfaceMesh.load.');
 
 /** Vertices that meshes share: their part of a face's positions and normals. */
 class Run {
