@@ -144,15 +144,17 @@ test('primitives may be strips, fans, or without indices', options, async () => 
   }));
 });
 
-test('triangles may stay in the scene, as strips, too, and there may be no normals', options, async () => {
-  const {face} = await load(readFileSync(changed((json, builder) => {
-    json.extensionsUsed = ['EXT_counts_on_the_order'];
-    const [, {primitives: [eye]}] = json.meshes, indices = new Uint16Array([0, 9, 1, 10, 2, 11, 2, 11, 12, 20, 21]);
-    Object.assign(eye, {mode: 5, indices: builder.accessor(indices, 1), extensions: {EXT_counts_on_the_order: {}}});
-    delete eye.attributes.NORMAL;
-  })));
-  assert.deepEqual(face.meshes.map((mesh) => mesh.isVerticesDataPresent('normal')), [true, true, false, false]);
-  assert.deepEqual(face.meshes.map((mesh) => mesh.getTotalIndices()), [432, 432, 11, 11]);
+test('triangles may stay in the scene, as strips and fans, too, and there may be no normals', options, async () => {
+  for (const [mode, indices] of [[5, [0, 9, 1, 10, 2, 11, 2, 11, 12, 20, 21]], [6, [10, 0, 1, 2, 2, 11, 20, 19, 18, 9]]]) {
+    const {face} = await load(readFileSync(changed((json, builder) => {
+      json.extensionsUsed = ['EXT_counts_on_the_order'];
+      const [, {primitives: [eye]}] = json.meshes, own = builder.accessor(new Uint16Array(indices), 1);
+      Object.assign(eye, {mode, indices: own, extensions: {EXT_counts_on_the_order: {}}});
+      delete eye.attributes.NORMAL;
+    })));
+    assert.deepEqual(face.meshes.map((mesh) => mesh.isVerticesDataPresent('normal')), [true, true, false, false]);
+    assert.deepEqual(face.meshes.map((mesh) => mesh.getTotalIndices()), [432, 432, indices.length, indices.length]);
+  }
 });
 
 test('a face may be some of the meshes; targets of others of the same names follow it', options, async () => {
@@ -210,7 +212,7 @@ test('weights move influences, and influences weights, and shaders know of neith
   world.render();
   assert.deepEqual(face.weights, {jawOpen: 0.25, smile: 1, look: 0.25});
   assert.deepEqual([left.getTarget(0).influence, lips.getTarget(1).influence], [0.25, 1]);
-  for (const manager of managers) assert.equal(manager.numInfluencers, 0);
+  for (const {numInfluencers, numMaxInfluencers} of managers) assert.deepEqual([numInfluencers, numMaxInfluencers], [0, 0]);
   face.setWeights({jawOpen: 0});
   face.update();
   assertTellsWhetherToDraw(face);
@@ -252,7 +254,7 @@ const still = (json, builder) => {
   eye.extras.targetNames.push('smile');
   delete json.nodes[4].weights;
   samplers[0].output = builder.accessor(new Float32Array([0.25, 0, 0.75, 0]), 1);
-  samplers.push({...samplers[0], output: builder.accessor(new Float32Array([0, 0, 0.5, 0]), 1)});
+  samplers.push({...samplers[0], output: builder.accessor(new Float32Array(4), 1)});
   channels.push({sampler: 2, target: {node: 3, path: 'weights'}});
 };
 
@@ -260,6 +262,7 @@ test('an animation that Babylon.js started leaves targets to others that it keep
   const {face, world, meshes, animationGroups: [take]} = await load(readFileSync(changed(still, '--mesh', 'head')), {});
   const smiles = meshes.filter(({name}) => name.startsWith('eye')).map((mesh) => mesh.morphTargetManager.getTarget(1));
   assert.equal(take.isStarted, true);
+  assert.equal(take.targetedAnimations.length, 4, 'the neck, the jaw of two primitives, and a look of no target of the face');
   face.setWeights({smile: 0.5});
   for (let k = 0; k < 3; ++k) world.render();
   assert.equal(face.weights.smile, 0.5);
@@ -361,5 +364,6 @@ test('it loads from a URL, in a worker, too, and is waited for', options, async 
   const loading = importScene(new URL('http://a/models/avatar.sweep'), scene, {load: remember, ...STILL});
   assert.equal(scene.isReady(), false);
   assert.equal((await loading).face.meshes.length, 4);
+  assert.equal((await importScene(bytes)).container.scene, scene, 'the last one that was made');
   assert.deepEqual(loaded, ['http://a/models/avatar.sweep']);
 });
