@@ -22,8 +22,8 @@ TEST(LeftOut, AreMeshesWithoutTargets) {
       read(withHats(1)).warnings,
       (std::vector<std::string>{
           "Meshes without morph targets, lines and points are not part of the face: mesh 1 "
-          "'hat0'; a .glb of the face shows them, and sweepface/scene in three.js; pictures and "
-          ".obj files do not."}));
+          "'hat0'; a .glb of the face shows them, and so do scenes in three.js and Babylon.js; "
+          "pictures and .obj files do not."}));
   const auto warnings = read(withHats(5)).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("mesh 1 'hat0', mesh 2 'hat1', mesh 3 'hat2' and 2 more;"),
