@@ -303,6 +303,17 @@ test('disposing of the face takes the scene with it, and disposing of the meshes
   assert.throws(() => third.face.names, /disposed of/);
 });
 
+test('a second model may have a clone of the face', options, async () => {
+  const {face, world} = await load(), other = await importScene(bytes, world, {...STILL, load: async () => face.face.clone()});
+  face.setWeights({smile: 1});
+  world.render();
+  assert.deepEqual([face.weights.smile, other.face.weights.smile], [1, 0]);
+  face.dispose();
+  other.face.setWeights({smile: 0.5});
+  world.render();
+  assert.equal(world.meshes.length, other.meshes.length);
+});
+
 test('what cannot be shown says so', options, async (context) => {
   const plain = readFileSync(sample), cut = bytes.slice(0, bytes.length - 1), scene = newScene();
   const fails = (given, message, more) => assert.rejects(importScene(given, scene, more), {message});
