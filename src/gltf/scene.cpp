@@ -53,11 +53,12 @@ class Emptier {
   const std::vector<bool>& touched() const { return touched_; }
 
  private:
-  /// Accessors that other programs left behind, such as those of targets that they took out.
+  /// Accessors that other programs left behind, such as those of targets that they took out, if
+  /// they are sound.
   void emptyUnused() {
     const std::vector<std::size_t> uses = accessorUseCounts(document_);
     for (std::size_t a = 0; a < uses.size(); ++a)
-      if (uses[a] == 0) empty(a, Json(accessors()[a]["componentType"]));
+      if (uses[a] == 0 && accessorAt(document_, a)) empty(a, Json(accessors()[a]["componentType"]));
   }
 
   static constexpr int floats = static_cast<int>(Component::float32);

@@ -213,6 +213,19 @@ TEST(Scene, LosesTheDataOfWhatNothingUses) {
   }
 }
 
+/// Nobody has looked at accessors that nothing uses.
+TEST(Scene, KeepsDamagedAccessorsThatNothingUses) {
+  Json sound = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 9}, {"bufferView", 0}};
+  for (const auto& [key, value] : std::vector<std::pair<const char*, Json>>{
+           {"sparse", "none"}, {"sparse", {{"count", 1}}}, {"count", "nine"}}) {
+    Glb glb = smallFace();
+    Json damaged = sound;
+    damaged[key] = value;
+    glb.add("accessors", damaged);
+    EXPECT_EQ(sceneFrom(glb).json["accessors"].back(), damaged) << key;
+  }
+}
+
 TEST(Scene, KeepsOtherMeshes) {
   Glb glb = smallFace();
   const std::size_t hair = addHair(glb);
