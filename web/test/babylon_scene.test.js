@@ -304,7 +304,8 @@ test('disposing of the face takes the scene with it, and disposing of the meshes
 });
 
 test('a second model may have a clone of the face', options, async () => {
-  const {face, world} = await load(), other = await importScene(bytes, world, {...STILL, load: async () => face.face.clone()});
+  const {face, world} = await load(), cloned = async () => face.face.clone();
+  const other = await importScene(bytes, world, {...STILL, load: cloned});
   face.setWeights({smile: 1});
   world.render();
   assert.deepEqual([face.weights.smile, other.face.weights.smile], [1, 0]);
