@@ -8,7 +8,7 @@ import {VertexData} from '@babylonjs/core/Meshes/mesh.vertexData.js';
 import {SubMesh} from '@babylonjs/core/Meshes/subMesh.js';
 import {bound, endsOf} from './sweepface_babylon_bounds.js';
 import {eachFrame} from './sweepface_babylon_frames.js';
-import {checkScene, loadFor} from './sweepface_babylon_source.js';
+import {checkScene, loadFor, nameIn} from './sweepface_babylon_source.js';
 import {twinOf} from './sweepface_twin.js';
 import {faceFrom, otherGeometry} from './sweepface_values.js';
 
@@ -65,8 +65,8 @@ export class SweepfaceMesh extends Mesh {
 
   /** Loads a face from a URL, or from bytes; `options` are those of Sweepface.load, and `load`, loadInWorker. */
   static async load(source, scene, options = {}) {
-    return loadFor(scene, source, options, async (bytes, load, usual, name) => {
-      return SweepfaceMesh.#from.call(this, await load(bytes, usual), name, scene);
+    return loadFor(scene, source, options, async (bytes, load, usual, url) => {
+      return SweepfaceMesh.#from.call(this, await load(bytes, usual), nameIn(url), scene);
     });
   }
 

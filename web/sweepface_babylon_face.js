@@ -134,25 +134,19 @@ export class SceneFace extends movedByWeights(Object) {
   }
 
   #begin(face, made) {
-    const index = new Map(face.names.map((name, k) => [name, k]));
-    const numbers = (names) => names.map((name) => index.get(name) ?? -1);
-    const follower = (mesh, names, more) => {
-      return {mesh: {morphTargetInfluences: influencesOf(targetsOf(mesh))}, targets: numbers(names), ...more};
+    const own = [...made].flatMap(([{names}, meshes]) => meshes.map((mesh) => ({names, mesh, targets: targetsOf(mesh)})));
+    const others = this.#container.meshes.filter((mesh) => !this.#meshes.has(mesh)).map(targetsOf);
+    for (const {mesh, targets} of own) keepOut(mesh, targets);
+    const isFollowing = ({name}) => face.names.includes(name);
+    dropStill(this.#container.animationGroups,
+              new Set([...own.flatMap(({targets}) => targets), ...others.flat().filter(isFollowing)]));
+    const follower = (targets, names, onlyFollows) => {
+      return {mesh: {morphTargetInfluences: influencesOf(targets)}, names, onlyFollows};
     };
-    const followers = [], all = new Set();
-    for (const [part, meshes] of made)
-      for (const mesh of meshes) {
-        const targets = targetsOf(mesh);
-        keepOut(mesh, targets);
-        for (const target of targets) all.add(target);
-        followers.push(follower(mesh, part.names));
-      }
-    const others = this.#container.meshes.filter((each) => !this.#meshes.has(each) && each.morphTargetManager);
-    for (const target of others.flatMap(targetsOf)) if (index.has(target.name)) all.add(target);
-    dropStill(this.#container.animationGroups, all);
-    for (const mesh of others)
-      followers.push(follower(mesh, targetsOf(mesh).map(({name}) => name), {onlyFollows: true}));
-    this[begin](face, followers, true);
+    this[begin](face, [
+      ...own.map(({names, targets}) => follower(targets, names, false)),
+      ...others.map((targets) => follower(targets, targets.map(({name}) => name), true))
+    ], true);
     this.update();
   }
 

@@ -4,11 +4,9 @@ import {EngineStore} from '@babylonjs/core/Engines/engineStore.js';
 import {LoadAssetContainerAsync} from '@babylonjs/core/Loading/sceneLoader.js';
 import {SceneFace} from './sweepface_babylon_face.js';
 import {checkScene, loadFor} from './sweepface_babylon_source.js';
-import {parted} from './sweepface_chunks.js';
 import {formatGlb} from './sweepface_glb.js';
 import {isEmpty} from './sweepface_scene_left.js';
-import {checkDetail, checkFit, readScene} from './sweepface_scene_read.js';
-import {bytesOf} from './sweepface_values.js';
+import {withScene} from './sweepface_scene_read.js';
 
 export {SceneFace};
 
@@ -16,7 +14,7 @@ export {SceneFace};
 const HOLLOW = () => ({});
 
 /** The folder of a URL, beside which files that a scene names are looked for. */
-const folderOf = (source) => String(source).split(/[?#]/)[0].replace(/[^/]*$/, '');
+const folderOf = (url = '') => url.split(/[?#]/)[0].replace(/[^/]*$/, '');
 
 /**
  * A copy of a scene's JSON for Babylon.js: without the indices that it leaves to the face, which would be looked for, and
@@ -45,23 +43,16 @@ async function containerOf(scene, world, options, name) {
   throw new Error('The scene was disposed of while the face was loading.');
 }
 
-async function importFace(given, load, options, world, rootUrl) {
-  const {pluginOptions, ...others} = options, name = others.name || 'The face';
-  const bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
-  checkDetail(others);
-  const face = await load(rest, others);
-  let container;
+/** What Babylon.js makes of a scene, in its own, with the face in it. */
+async function shownIn(world, options, face, scene, name) {
+  const container = await containerOf(scene, world, options, name);
   try {
-    const scene = await readScene(text, name, {hollow: HOLLOW, alone: 'SweepfaceMesh.load'});
-    checkFit(scene, face, name);
-    container = await containerOf(scene, world, {pluginOptions, rootUrl}, name);
     const made = new SceneFace(face, container, scene, name);
     container.addAllToScene();
     const {meshes, transformNodes, skeletons, animationGroups, lights, cameras} = container;
     return {face: made, container, meshes, transformNodes, skeletons, animationGroups, lights, cameras};
   } catch (error) {
-    container?.dispose();
-    face.dispose();
+    container.dispose();
     throw error;
   }
 }
@@ -74,8 +65,8 @@ async function importFace(given, load, options, world, rootUrl) {
 export async function importScene(source, scene, options = {}) {
   const world = scene ?? EngineStore.LastCreatedScene;
   checkScene(world);
-  const isUrl = typeof source === 'string' || source instanceof URL;
-  return loadFor(world, source, options, (bytes, load, usual) => {
-    return importFace(bytes, load, usual, world, isUrl ? folderOf(source) : '');
+  return loadFor(world, source, options, (bytes, load, {pluginOptions, ...usual}, url) => {
+    const show = (...made) => shownIn(world, {pluginOptions, rootUrl: folderOf(url)}, ...made);
+    return withScene(bytes, load, usual, {hollow: HOLLOW, alone: 'SweepfaceMesh.load'}, show);
   });
 }

@@ -10,10 +10,8 @@ async function download(url) {
   throw new Error(`${nameOf(url)} cannot be loaded: the server answers ${status} ${statusText}`.trimEnd() + '.');
 }
 
-/** The name of a file without its folders and query; other URLs, such as data:, have none. */
-function nameIn(source) {
-  return (/^(data|blob):/i.test(source) ? '' : nameOf(source).split('/').pop()) || 'face';
-}
+/** The name of the file at a URL, without its folders and query; other URLs, such as data:, have none. */
+export const nameIn = (url = '') => (/^(data|blob):/i.test(url) ? '' : nameOf(url).split('/').pop()) || 'face';
 
 export function checkScene(scene) {
   if (typeof scene?.getEngine !== 'function')
@@ -21,16 +19,17 @@ export function checkScene(scene) {
 }
 
 /**
- * Loads from a URL or from bytes: `make` is given the bytes, `load`, the other options and a name. A scene, if there is
- * one, is not ready before.
+ * Loads from a URL or from bytes: `make` is given the bytes, `load`, the other options and the URL, if there is one. A
+ * scene, if there is one, is not ready before.
  */
 export async function loadFor(scene, source, options, make) {
   if (scene) checkScene(scene);
-  const {load = Sweepface.load, ...usual} = ownOptions(options), isUrl = typeof source === 'string' || source instanceof URL;
-  if (isUrl) usual.name ??= nameOf(source);
+  const {load = Sweepface.load, ...usual} = ownOptions(options);
+  const url = typeof source === 'string' || source instanceof URL ? String(source) : undefined;
+  if (url !== undefined) usual.name ??= nameOf(url);
   scene?.addPendingData(usual);  // its whenReadyAsync() waits
   try {
-    return await make(isUrl ? await download(source) : source, load, usual, isUrl ? nameIn(source) : 'face');
+    return await make(url === undefined ? source : await download(url), load, usual, url);
   } finally {
     scene?.removePendingData(usual);
   }

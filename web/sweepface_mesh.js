@@ -35,7 +35,7 @@ export class FaceMesh extends movedByWeights(Mesh) {
     this.#group.add(this.#self);
     this.morphTargetDictionary = Object.fromEntries(face.names.map((name, k) => [name, k]));
     this.morphTargetInfluences = face.names.map(() => 0);
-    this[begin](face, [{mesh: this, targets: face.names.map((_, k) => k)}]);
+    this[begin](face, [{mesh: this, names: face.names}]);
   }
 
   update(seconds) {

@@ -18,26 +18,27 @@ export const isGone = Symbol('isGone'), release = Symbol('release');
 export const movedByWeights = (Base) => class extends Base {
   #moving = false;
   #isGone = false;
-  #followers = [];  // meshes, for each influence the number of its target, and the influences as they were last written
+  #followers = [];  // meshes, for each influence the number of its target or -1, and the influences as they were last written
   #companions = [];  // likewise, of what is not the face, and the weights that they were last written for
   #expression = {};  // a new object whenever weights or eyes are set
   #shown;
 
   /**
-   * `meshes` have influences, the k-th of the target number `targets[k]`, which is -1 if the face has no such target.
-   * They move the face, unless they only follow it, until something else moves them. If `isPosed`, the face takes its
-   * weights from these.
+   * `meshes` have influences, the k-th of the target `names[k]`, if the face has one of that name. They move the face,
+   * unless they only follow it, until something else moves them. If `isPosed`, the face takes its weights from these.
    */
   [begin](face, meshes, isPosed = false) {
     this.face = face;
+    const numbers = new Map(face.names.map((name, k) => [name, k]));
+    const numbersOf = (names) => names.map((name) => numbers.get(name) ?? -1);
     this.#followers = meshes.filter(({onlyFollows}) => !onlyFollows)
-        .map(({mesh, targets}) => ({mesh, targets, told: targets.map(() => 0)}));
+        .map(({mesh, names}) => ({mesh, targets: numbersOf(names), told: names.map(() => 0)}));
     this.#moving = face.advance(0);
     if (isPosed) this[takeInfluences]();
     const weights = [...face.weightValues];
-    this.#companions = meshes.filter(({onlyFollows}) => onlyFollows).map(({mesh, targets}) => {
-      const told = targets.map((_, k) => mesh.morphTargetInfluences[k]);
-      return {mesh, targets: [...targets], told, weights: targets.map((target) => weights[target])};
+    this.#companions = meshes.filter(({onlyFollows}) => onlyFollows).map(({mesh, names}) => {
+      const targets = numbersOf(names), told = names.map((_, k) => mesh.morphTargetInfluences[k]);
+      return {mesh, targets, told, weights: targets.map((target) => weights[target])};
     });
     this.#tellInfluences();
   }

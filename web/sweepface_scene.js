@@ -8,7 +8,7 @@ import {card} from './sweepface_followers.js';
 import {formatGlb, sceneFrom} from './sweepface_glb.js';
 import {SceneFace} from './sweepface_scene_face.js';
 import {leftOf} from './sweepface_scene_left.js';
-import {checkDetail, checkFit, readScene} from './sweepface_scene_read.js';
+import {withScene} from './sweepface_scene_read.js';
 import {meshFrom, settings, SweepfaceLoader} from './sweepface_three.js';
 import {bytesOf, isGiven} from './sweepface_values.js';
 
@@ -80,23 +80,15 @@ export class SweepfaceSceneLoader extends SweepfaceLoader {
     const {load, others: {gltfLoader, mesh, ...others}} = settings(usual, options);
     if (isGiven(gltfLoader) && typeof gltfLoader.parseAsync !== 'function')
       throw new TypeError("The option 'gltfLoader' is a GLTFLoader.");
-    const way = meshFrom(mesh)[card], name = others.name || 'The face';
-    const bytes = bytesOf(given), {rest, text} = bytes ? parted(bytes) : {};
-    checkDetail(others);
-    const face = await load(rest, others);
-    try {
-      const scene = await readScene(text, name, {hollow: HOLLOW, alone: 'SweepfaceLoader'});
-      checkFit(scene, face, name);
+    const way = meshFrom(mesh)[card];
+    return withScene(given, load, others, {hollow: HOLLOW, alone: 'SweepfaceLoader'}, async (face, scene, name) => {
       const gltf = await parse(scene, gltfLoader ?? this.#gltfLoader(), this.resourcePath || folder, name);
       const geometries = await geometriesOf(gltf, scene.parts);
       fill(scene, geometries, face, name);
       const parts = new Map([...geometries].map(([part, geometry]) => [geometry, part]));
       const animations = gltf.animations.map((animation) => apart(animation, gltf.scene));
       return Object.assign(gltf, {animations, face: new SceneFace(face, gltf.scenes, parts, way)});
-    } catch (error) {
-      face.dispose();
-      throw error;
-    }
+    });
   }
 }
 

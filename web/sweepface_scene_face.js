@@ -81,11 +81,9 @@ export class SceneFace extends movedByWeights(Object) {
   }
 
   #begin(face, objects, isPosed) {
-    const index = new Map(face.names.map((name, k) => [name, k]));
-    const numbers = (names) => names.map((name) => index.get(name) ?? -1);
-    const meshes = this.#meshes.map((mesh) => ({mesh, targets: numbers(this.#parts.get(mesh.geometry).names)}));
+    const meshes = this.#meshes.map((mesh) => ({mesh, names: this.#parts.get(mesh.geometry).names}));
     const others = objects.filter((object) => namesOf(object) && !this.#meshes.includes(object))
-        .map((mesh) => ({mesh, targets: numbers(namesOf(mesh)), onlyFollows: true}));
+        .map((mesh) => ({mesh, names: namesOf(mesh), onlyFollows: true}));
     this[begin](face, [...meshes, ...others], isPosed);
     this.update();
   }

@@ -56,8 +56,7 @@ std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
   constexpr std::size_t kMost = 3;
   constexpr const char* kWhere =
       "a .glb of the face shows them, and so do scenes in three.js and Babylon.js; pictures and "
-      ".obj "
-      "files do not";
+      ".obj files do not";
   if (!still.empty())
     warnings.push_back(fmt::format(
         "Meshes without morph targets, lines and points are not part of the face: {}; {}.",

@@ -62,11 +62,10 @@ class PartFinder {
   Result<Parts> find() {
     const auto placed = placements(document_);
     if (!placed) return std::unexpected(placed.error());
-    const auto isOfFace = facePrimitives();
-    if (!isOfFace) return std::unexpected(isOfFace.error());
+    const auto ofFace = facePrimitives();
+    if (!ofFace) return std::unexpected(ofFace.error());
     for (std::size_t m = 0; m < meshes_.size(); ++m)
-      if (auto ok = addMesh(m, (*placed)[m], (*isOfFace)[m]); !ok)
-        return std::unexpected(ok.error());
+      if (auto ok = addMesh(m, (*placed)[m], (*ofFace)[m]); !ok) return std::unexpected(ok.error());
     if (parts_.parts.empty())
       return fail("it has no triangles; export the meshes of the face with the file.");
     return std::move(parts_);
@@ -77,18 +76,24 @@ class PartFinder {
     return gltf::placeOf(document_, mesh, primitive);
   }
 
-  /// The primitives of a mesh that are triangles, with targets if those are asked for.
-  Result<std::vector<std::size_t>> triangles(std::size_t mesh, bool morphing) const {
-    std::vector<std::size_t> found;
+  /// Primitives of a mesh that are triangles.
+  struct Triangles {
+    std::vector<std::size_t> all, morphing;  // those with targets
+  };
+
+  Result<Triangles> triangles(std::size_t mesh) const {
+    Triangles found;
     Members in(meshes_[mesh], placeOf(document_, mesh));
     const Json& primitives = in.array("primitives");
     if (!in.ok()) return in.error();
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       Members primitive(primitives[p], place(mesh, p));
       const std::size_t mode = primitive.size("mode", listMode);
-      const bool targets = !primitive.array("targets").empty();
+      const bool morphs = !primitive.array("targets").empty();
       if (!primitive.ok()) return primitive.error();
-      if (mode >= listMode && mode <= fanMode && (targets || !morphing)) found.push_back(p);
+      if (mode < listMode || mode > fanMode) continue;
+      found.all.push_back(p);
+      if (morphs) found.morphing.push_back(p);
     }
     return found;
   }
@@ -97,22 +102,23 @@ class PartFinder {
   Result<std::vector<std::vector<std::size_t>>> facePrimitives() const {
     const auto isChosen = chosenMeshes(document_);
     if (!isChosen) return std::unexpected(isChosen.error());
-    std::vector<std::vector<std::size_t>> all(meshes_.size()), morphing(meshes_.size());
+    const bool isChoice = !isChosen->empty();
+    std::vector<Triangles> found(meshes_.size());
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      if (!isChosen->empty() && !(*isChosen)[m]) continue;
-      for (const bool morphs : {false, true}) {
-        auto found = triangles(m, morphs);
-        if (!found) return std::unexpected(found.error());
-        (morphs ? morphing : all)[m] = std::move(*found);
-      }
-      if (!isChosen->empty() && all[m].empty())
+      if (isChoice && !(*isChosen)[m]) continue;
+      auto own = triangles(m);
+      if (!own) return std::unexpected(own.error());
+      found[m] = std::move(*own);
+      if (isChoice && found[m].all.empty())
         return fail(placeOf(document_, m) + ": it has no triangles; choose other meshes.");
     }
-    const auto isNone = [](const auto& list) { return list.empty(); };
-    if (isChosen->empty()) return std::ranges::all_of(morphing, isNone) ? all : morphing;
-    for (std::size_t m = 0; m < meshes_.size(); ++m)
-      if (!morphing[m].empty()) all[m] = std::move(morphing[m]);
-    return all;
+    const auto morphs = [](const Triangles& own) { return !own.morphing.empty(); };
+    const bool anyMorphs = std::ranges::any_of(found, morphs);
+    std::vector<std::vector<std::size_t>> primitives;
+    for (Triangles& own : found)
+      primitives.push_back((isChoice ? morphs(own) : anyMorphs) ? std::move(own.morphing)
+                                                                : std::move(own.all));
+    return primitives;
   }
 
   Result<void> addMesh(std::size_t mesh, const Placement& placed,

@@ -171,8 +171,8 @@ std::string touchingMeshes(const Document& document, const Parts& parts, const M
   if (touching.empty()) return {};
   return fmt::format(
       "Slits as wide as the tolerance may show between the face and {}; to close them, have that "
-      "be part of the face: choose all meshes of the face by their names (--mesh), and "
-      "give --tolerance, as what is assumed grows with them.",
+      "be part of the face: choose all meshes of the face by their names (--mesh), and give "
+      "--tolerance, as what is assumed grows with them.",
       io::fewOf(touching, 3));
 }
 

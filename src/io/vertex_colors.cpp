@@ -1,5 +1,7 @@
 #include "io/vertex_colors.hpp"
 
+#include <fstream>
+#include <string>
 #include <system_error>
 
 #include "sweepface/io.hpp"
@@ -34,9 +36,11 @@ bool isColoredObj(std::string_view text) {
 bool hasVertexColors(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe is read only once
-  const Result<std::string> bytes = readFile(path);
-  if (!bytes) return false;
-  return extensionOf(path) == ".ply" ? isColoredPly(*bytes) : isColoredObj(*bytes);
+  std::string start(std::size_t{1} << 20, '\0');  // where headers and the first vertex are
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return extensionOf(path) == ".ply" ? isColoredPly(start) : isColoredObj(start);
 }
 
 }  // namespace sweepface::io

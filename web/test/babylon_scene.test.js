@@ -4,7 +4,7 @@ import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 import {newFolder, sample, tool} from './native.js';
-import {converted, model} from './scene_file.js';
+import {changed, converted, inOtherModes, model, smilingEye} from './scene_file.js';
 import {assertTellsWhetherToDraw} from './updates.js';
 
 const core = '@babylonjs/core', loaders = '@babylonjs/loaders';
@@ -117,13 +117,6 @@ test('a scene has all that the file had, and the face stands where an exported o
   }
 });
 
-/** A model changed by `change`, as a file. */
-function changed(change, ...more) {
-  const made = model();
-  change(made.json, made);
-  return converted(made, ...more);
-}
-
 test('meshes may be turned, mirrored and stretched at once', options, async () => {
   await compare(changed((json) => {
     Object.assign(json.nodes[3], {scale: [-1, 2, 3], rotation: [0.1, 0.7, 0.5, 0.5]});
@@ -132,16 +125,7 @@ test('meshes may be turned, mirrored and stretched at once', options, async () =
 });
 
 test('primitives may be strips, fans, or without indices', options, async () => {
-  await compare(changed((json, builder) => {
-    const [head, eye, hat] = json.meshes.map(({primitives: [first]}) => first), {accessors} = json;
-    const take = (list) => builder.accessor(new Uint16Array(list), 1);
-    Object.assign(eye, {mode: 5, indices: take([0, 9, 1, 10, 2, 11, 2, 11, 12, 20, 21])});
-    Object.assign(head, {mode: 6, indices: take([14, 0, 1, 2, 15, 28, 27, 26, 13])});
-    hat.targets = [{POSITION: hat.attributes.POSITION}];
-    delete hat.indices;
-    for (const index of Object.values(hat.attributes)) accessors[index].count = 24;
-    json.meshes[2].extras = {targetNames: ['lift']};
-  }));
+  await compare(changed(inOtherModes));
 });
 
 test('triangles may stay in the scene, as strips and fans, too, and there may be no normals', options, async () => {
@@ -159,11 +143,8 @@ test('triangles may stay in the scene, as strips and fans, too, and there may be
 
 test('a face may be some of the meshes; targets of others of the same names follow it', options, async () => {
   const {face, meshes, world} = await compare(changed((json) => {
-    const [head, eye] = json.meshes;
-    eye.primitives[0].targets.push(eye.primitives[0].targets[0]);
-    eye.extras.targetNames.push('smile');
-    delete json.nodes[4].weights;
-    head.extras.targetNames[0] = 'jaw';
+    smilingEye(json);
+    json.meshes[0].extras.targetNames[0] = 'jaw';
   }, '--mesh', 'head'));
   assert.deepEqual(face.meshes.map(({name}) => name), ['head_primitive0', 'head_primitive1']);
   const eyes = meshes.filter(({name}) => name.startsWith('eye')).map((mesh) => mesh.morphTargetManager.getTarget(1));
@@ -249,10 +230,8 @@ test("the file's animations move the skeleton and the face, except for targets t
 
 /** The model with a smile that is 0 in its animation, and an eye of its own smile, which is 0 there, too. */
 const still = (json, builder) => {
-  const [, eye] = json.meshes, [{samplers, channels}] = json.animations;
-  eye.primitives[0].targets.push(eye.primitives[0].targets[0]);
-  eye.extras.targetNames.push('smile');
-  delete json.nodes[4].weights;
+  const [{samplers, channels}] = json.animations;
+  smilingEye(json);
   samplers[0].output = builder.accessor(new Float32Array([0.25, 0, 0.75, 0]), 1);
   samplers.push({...samplers[0], output: builder.accessor(new Float32Array(4), 1)});
   channels.push({sampler: 2, target: {node: 3, path: 'weights'}});

@@ -8,7 +8,7 @@ import {crc32, parted} from '../sweepface_chunks.js';
 import {formatGlb} from '../sweepface_glb.js';
 import {skip, withPage} from './browser.js';
 import {newFolder, tool} from './native.js';
-import {converted, inSilence, loadScene, model} from './scene_file.js';
+import {changed, converted, inOtherModes, inSilence, loadScene, model, smilingEye} from './scene_file.js';
 import {assertTellsWhetherToDraw} from './updates.js';
 
 const three = await import('three').catch(() => undefined);
@@ -102,13 +102,6 @@ test('a scene has all that the file had, and the face stands where an exported o
   assert.deepEqual([...mine.values()].map(({material}) => material.name), ['lips', 'skin', 'skin', 'skin', 'felt']);
 });
 
-/** A model changed by `change`, as a file. */
-function changed(change, ...more) {
-  const made = model();
-  change(made.json, made);
-  return converted(made, ...more);
-}
-
 /** Makes the head four primitives of one set of vertices, with these materials. */
 const quartered = (materials) => (json) => {
   const [{primitives: halves}] = json.meshes, {accessors} = json;
@@ -151,16 +144,7 @@ test('texture coordinates are those of each primitive, also where they share ver
 });
 
 test('strips, fans and what has no indices are part of the face', options, async () => {
-  await compare(changed((json, builder) => {
-    const [head, eye, hat] = json.meshes.map(({primitives: [first]}) => first), {accessors} = json;
-    const take = (list) => builder.accessor(new Uint16Array(list), 1);
-    Object.assign(eye, {mode: 5, indices: take([0, 9, 1, 10, 2, 11, 2, 11, 12, 20, 21])});
-    Object.assign(head, {mode: 6, indices: take([14, 0, 1, 2, 15, 28, 27, 26, 13])});
-    hat.targets = [{POSITION: hat.attributes.POSITION}];
-    delete hat.indices;
-    for (const index of Object.values(hat.attributes)) accessors[index].count = 24;
-    json.meshes[2].extras = {targetNames: ['lift']};
-  }));
+  await compare(changed(inOtherModes));
 });
 
 test('nodes place meshes as the tool has it: by matrices, one in another, those of a scene first', options, async () => {
@@ -180,14 +164,11 @@ test('nodes place meshes as the tool has it: by matrices, one in another, those 
   assert.deepEqual([face.meshes.length, mine.size], [3, 4]);
 });
 
-/** The model with an eye that has a target of the head's, too, and a hat with none. */
+/** The model with an eye that smiles and looks somewhere at first, and another name for the jaw. */
 const winking = (json) => {
-  const [head, eye] = json.meshes;
-  eye.primitives[0].targets.push(eye.primitives[0].targets[0]);
-  eye.extras.targetNames.push('smile');
-  eye.weights = [0.5, 0];
-  delete json.nodes[4].weights;
-  head.extras.targetNames[0] = 'jaw';
+  smilingEye(json);
+  json.meshes[1].weights = [0.5, 0];
+  json.meshes[0].extras.targetNames[0] = 'jaw';
 };
 
 test('a face may be some of the meshes, with or without targets', options, async () => {

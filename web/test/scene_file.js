@@ -134,6 +134,33 @@ export function converted({json, binary}, ...options) {
   return file;
 }
 
+/** The model changed by `change`, as a file. */
+export function changed(change, ...options) {
+  const made = model();
+  change(made.json, made);
+  return converted(made, ...options);
+}
+
+/** Changes the model: a strip, a fan, and a hat of a face without indices. */
+export function inOtherModes(json, builder) {
+  const [head, eye, hat] = json.meshes.map(({primitives: [first]}) => first), {accessors} = json;
+  const take = (list) => builder.accessor(new Uint16Array(list), 1);
+  Object.assign(eye, {mode: 5, indices: take([0, 9, 1, 10, 2, 11, 2, 11, 12, 20, 21])});
+  Object.assign(head, {mode: 6, indices: take([14, 0, 1, 2, 15, 28, 27, 26, 13])});
+  hat.targets = [{POSITION: hat.attributes.POSITION}];
+  delete hat.indices;
+  for (const index of Object.values(hat.attributes)) accessors[index].count = 24;
+  json.meshes[2].extras = {targetNames: ['lift']};
+}
+
+/** Changes the model: the eye has a target of the head's name, too. */
+export function smilingEye(json) {
+  const [, eye] = json.meshes;
+  eye.primitives[0].targets.push(eye.primitives[0].targets[0]);
+  eye.extras.targetNames.push('smile');
+  delete json.nodes[4].weights;
+}
+
 /** Node has no images: three.js complains about each. */
 export async function inSilence(act) {
   const {error} = console;
