@@ -1,20 +1,29 @@
 #include "interrupts.hpp"
 
+#include <string_view>
+
+#ifndef __wasi__
 #include <chrono>
 #include <csignal>
-#include <optional>
-#include <string_view>
-#include <tbb/global_control.h>
 #include <thread>
 #include <tuple>
 #include <unistd.h>
+#endif
 
 #include "output.hpp"
+#include "thread_limit.hpp"
 
 namespace sweepface::cli {
 
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may not lock");
+
+#ifdef __wasi__
+
+/// There are no signals: whoever runs the module ends it.
+void catchInterrupts(Patience) {}
+
+#else
 
 namespace {
 
@@ -73,11 +82,10 @@ void catchInterrupts(Patience patience) {
 }
 
 #endif
+#endif
 
 Result<int> doLongWork(int threads, const std::function<Result<int>()>& work) {
-  std::optional<tbb::global_control> limit;
-  if (threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const ThreadLimit limit(static_cast<std::size_t>(threads));
   catchInterrupts(Patience::twoSeconds);
   Result<int> code = work();
   // Whatever failed after an interrupt failed because of it.

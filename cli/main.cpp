@@ -12,6 +12,11 @@
 #ifdef _WIN32
 #include "windows/console.hpp"
 #endif
+#ifdef __wasi__
+#include <cstdlib>
+#include <tuple>
+#include <unistd.h>
+#endif
 
 namespace sweepface::cli {
 namespace {
@@ -85,6 +90,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
 #ifdef _WIN32
   const sweepface::cli::Console console;
+#endif
+#ifdef __wasi__
+  // A module is always started in the root folder.
+  if (const char* const folder = std::getenv("PWD")) std::ignore = ::chdir(folder);
 #endif
   try {
     return sweepface::cli::run(argc, argv);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
+#include <new>
 
 namespace sweepface::gltf {
 namespace {
@@ -21,8 +23,8 @@ constexpr std::array<Shape, 7> kShapes{{{"SCALAR", 1, 1},
                                         {"MAT4", 4, 4}}};
 
 /// Whether `count` elements lie within a view of `length` bytes; sizes are below 2^53.
-bool fits(std::size_t offset, std::size_t count, std::size_t stride, std::size_t size,
-          std::size_t length) {
+bool fits(std::uint64_t offset, std::uint64_t count, std::uint64_t stride, std::uint64_t size,
+          std::uint64_t length) {
   return offset + (count - 1) * stride + size <= length;
 }
 
@@ -179,7 +181,10 @@ Result<std::vector<double>> decode(const Document& document, const Accessor& acc
         "accessor {}: it claims {} elements without data in {} bytes, more than a file of this "
         "size can mean; export the file again.",
         accessor.index, accessor.count, document.sourceBytes));
-  std::vector<double> values(accessor.count * accessor.components());
+  const std::uint64_t numbers = std::uint64_t{accessor.count} * accessor.components();
+  std::vector<double> values;
+  if (numbers > values.max_size()) throw std::bad_alloc();
+  values.resize(static_cast<std::size_t>(numbers));
   if (accessor.view) readDense(document, accessor, values);
   if (accessor.sparse)
     if (auto ok = overwrite(document, accessor, values); !ok) return std::unexpected(ok.error());

@@ -21,7 +21,7 @@ void tellBounds(Json& json, const std::vector<double>& values, std::size_t width
 }  // namespace
 
 void correctBounds(Document& document, const std::vector<bool>& rounded) {
-  std::size_t left = document.mostClaimed();
+  std::uint64_t left = document.mostClaimed();
   for (std::size_t a = 0; a < document.list("accessors").size(); ++a) {
     Json& json = document.json["accessors"][a];
     if (!find(json, "min") && !find(json, "max")) continue;

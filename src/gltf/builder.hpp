@@ -10,7 +10,7 @@
 namespace sweepface::gltf {
 
 /// Lengths in a GLB have 32 bits, and the JSON needs room as well.
-inline constexpr std::size_t mostBytes = (std::size_t{1} << 32) - (std::size_t{1} << 24);
+inline constexpr std::uint64_t mostBytes = (std::uint64_t{1} << 32) - (std::uint64_t{1} << 24);
 inline std::unexpected<Error> tooLargeForGlb() {
   return fail(
       "The face would need more than the 4 GiB of a GLB; choose a lower level of detail or a "

@@ -125,7 +125,8 @@ Result<std::string> fromPlanes(std::string_view planes) {
     table.width = front.number();
     table.rows = front.number();
     const std::string_view steps = front.bytes(table.width);
-    const bool sound = table.begin >= end && table.size() > 0 &&
+    const std::uint64_t size = std::uint64_t{table.width} * table.rows;
+    const bool sound = table.begin >= end && size > 0 && table.begin + size <= planes.size() &&
                        steps.find_first_not_of(std::string_view("\0\1", 2)) == steps.npos;
     if (!sound) return fail("it is damaged");
     end = table.end();

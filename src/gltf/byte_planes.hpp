@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,10 +14,10 @@ namespace sweepface::gltf {
 
 /// Rows of bytes one after another.
 struct ByteTable {
-  std::uint64_t begin = 0, width = 0, rows = 0;  ///< below 2^32 each
+  std::size_t begin = 0, width = 0, rows = 0;
 
-  std::uint64_t size() const { return width * rows; }
-  std::uint64_t end() const { return begin + size(); }
+  std::size_t size() const { return width * rows; }
+  std::size_t end() const { return begin + size(); }
 };
 
 /// The bytes, with the tables that deflate better that way in planes, each plane as it is or as

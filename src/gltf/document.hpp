@@ -34,11 +34,11 @@ struct Document {
   }
   /// The most corners, or elements of attributes, that a file of this size can mean. A few bytes
   /// can claim more by using the same data again and again.
-  std::size_t mostElements() const { return (1 << 16) + 8 * sourceBytes; }
+  std::uint64_t mostElements() const { return (1 << 16) + std::uint64_t{8} * sourceBytes; }
   /// The most vectors of all shapes together, or elements of an accessor without a buffer view: a
   /// few bytes can claim many that are zero. Honest files stay below this, however well they are
   /// compressed.
-  std::size_t mostClaimed() const { return (1 << 16) + 32 * sourceBytes; }
+  std::uint64_t mostClaimed() const { return (1 << 16) + std::uint64_t{32} * sourceBytes; }
   const Json& list(std::string_view key) const { return listOf(json, key); }
   /// Adds bytes as a buffer with one view; returns the view.
   std::size_t addBuffer(std::string bytes);

@@ -11,14 +11,14 @@ FineMeshBuilder::FineMeshBuilder(const BoundScene& scene)
 }
 
 std::size_t FineMeshBuilder::Hash::operator()(const Key& key) const {
-  std::size_t hash = 0;
+  std::uint64_t hash = 0;
   const auto add = [&](std::uint64_t bits) {
     hash = (hash ^ bits) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
   };
   add(key.gridVertex);
   for (const Index corner : key.place.corners) add(corner);
   for (const double part : {key.place.u, key.place.v}) add(std::bit_cast<std::uint64_t>(part));
-  return hash;
+  return static_cast<std::size_t>(hash);
 }
 
 Index FineMeshBuilder::shared(Index part, Index gridVertex, const Mix& place) {

@@ -144,9 +144,9 @@ class GlbWriter {
     buffers[0]["byteLength"] = document.buffers[0].size();
     if (vertices_ == Vertices::ofGrid)  // the data of the source's vertices are no longer needed
       document.buffers[0] = gatherBinary(document, touched);
-    constexpr std::size_t beyond = std::size_t{1} << 32;
+    constexpr std::uint64_t beyond = std::uint64_t{1} << 32;
     std::string bytes = formatContainer(document.json, document.buffers[0]);
-    if (bytes.size() >= beyond) return tooLargeForGlb();
+    if (const std::uint64_t size = bytes.size(); size >= beyond) return tooLargeForGlb();
     return bytes;
   }
 

@@ -43,9 +43,10 @@ const Json& emptyObject() {
   return empty;
 }
 
-/// A whole number below 2^53, however it is written.
+/// A whole number below 2^53, however it is written; where sizes have 32 bits, below 2^31, which is
+/// beyond all files, so that two can be added.
 std::optional<std::size_t> asSize(const Json& value) {
-  constexpr double beyond = 9007199254740992.0;
+  constexpr double beyond = sizeof(std::size_t) < 8 ? 0x1p31 : 0x1p53;
   if (!value.is_number()) return std::nullopt;
   const double number = value.get<double>();
   if (!(number >= 0 && number < beyond) || number != std::floor(number)) return std::nullopt;

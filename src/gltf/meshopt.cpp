@@ -1,5 +1,6 @@
 #include "gltf/meshopt.hpp"
 
+#include <cstdint>
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
@@ -9,7 +10,8 @@ namespace {
 // The most that a byte can stand for: vertices take two bits for 16 equal bytes, triangles a byte
 // for three indices, a sequence a byte per index.
 bool isPlausible(const MeshoptStream& s) {
-  const std::size_t bytes = s.count * s.stride;  // below 2^53 · 2^8
+  const std::uint64_t bytes = std::uint64_t{s.count} * s.stride;  // below 2^53 · 2^8
+  if (bytes > std::string().max_size()) return false;
   if (s.mode == "ATTRIBUTES") return bytes / 64 <= s.length;
   return s.count / (s.mode == "TRIANGLES" ? 3 : 1) <= s.length;
 }

@@ -216,7 +216,7 @@ class SkinChecker {
   const Document& document_;
   const Json &meshes_, &skins_;
   std::size_t accessors_;
-  std::size_t left_;                                                  // numbers that may be read
+  std::uint64_t left_;                                                // numbers that may be read
   std::map<std::pair<std::size_t, std::size_t>, double> lastOfSets_;  // joints, by accessors
 };
 

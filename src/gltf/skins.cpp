@@ -54,7 +54,7 @@ bool isAllOfParts(const Document& document, const Parts& parts, std::size_t rigM
 /// [joints] the weight of each joint, summed over all vertices of a mesh. `left` is how many
 /// elements may still be read.
 std::vector<double> weightsOfJoints(const Document& document, const Parts& parts,
-                                    std::size_t rigMesh, std::size_t joints, std::size_t& left) {
+                                    std::size_t rigMesh, std::size_t joints, std::uint64_t& left) {
   std::vector<double> sums(joints, 0.0);
   const std::size_t accessors = document.list("accessors").size();
   for (const Part& part : partsOf(parts, rigMesh)) {
@@ -66,7 +66,7 @@ std::vector<double> weightsOfJoints(const Document& document, const Parts& parts
         return decode(document, *accessor).value_or(std::vector<double>{});
       };
       const std::vector<double> numbers = of(joint), shares = of(weight);
-      left -= std::min(left, numbers.size() / 4);
+      left -= std::min<std::uint64_t>(left, numbers.size() / 4);
       for (std::size_t k = 0; k < numbers.size() && k < shares.size(); ++k)
         if (numbers[k] >= 0 && numbers[k] < static_cast<double>(joints))
           sums[static_cast<std::size_t>(numbers[k])] += shares[k];
@@ -261,7 +261,7 @@ void placeBySkins(const Document& document, Parts& parts) {
   const auto world = worldMatrices(document);
   if (!world) return;
   std::map<std::size_t, Placer> placers;
-  std::size_t left = document.mostElements();
+  std::uint64_t left = document.mostElements();
   for (std::size_t m = 0; m < parts.meshes.size(); ++m) {
     const auto skin = skins[parts.meshes[m].mesh];
     if (!skin || !isAllOfParts(document, parts, m)) continue;

@@ -222,7 +222,7 @@ Result<std::string> readFile(const fs::path& path) {
 
   std::string bytes;
   const auto size = fs::file_size(path, error);
-  if (!error && size <= io::maxFileBytes) bytes.reserve(size);
+  if (!error && size <= io::maxFileBytes) bytes.reserve(static_cast<std::size_t>(size));
   std::array<char, 1 << 16> chunk;
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     bytes.append(chunk.data(), count);

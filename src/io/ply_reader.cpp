@@ -136,7 +136,7 @@ class PlyReader {
 
   bool readVertices(const PlyElement& element) {
     const bool textured = isNumber(element, slots_[3]) && isNumber(element, slots_[4]);
-    mesh.positions.reserve(element.count);
+    mesh.positions.reserve(static_cast<std::size_t>(element.count));
     std::vector<double> row(element.properties.size());
     return readRows(element, [&](std::size_t property) {
       if (element.properties[property].countType) {

@@ -1,15 +1,18 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define SWEEPFACE_PLAIN_THREADS
+#endif
+#endif
+
+#if defined(SWEEPFACE_PLAIN_THREADS)
 #include <array>
 #include <atomic>
 #include <thread>
-#endif
+#elif !defined(__wasi__)
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #endif
 
 namespace sweepface {
@@ -17,7 +20,7 @@ namespace sweepface {
 /// Calls `body(k)` for each k in [first, end), on all cores.
 template <typename Size, typename Body>
 void parallelFor(Size first, Size end, const Body& body) {
-#ifdef SWEEPFACE_PLAIN_THREADS
+#if defined(SWEEPFACE_PLAIN_THREADS)
   // The thread sanitizer does not see the synchronisation in TBB's library, which is not built for
   // it.
   std::atomic<Size> next = first;
@@ -27,6 +30,8 @@ void parallelFor(Size first, Size end, const Body& body) {
   std::array<std::thread, 3> others{std::thread(work), std::thread(work), std::thread(work)};
   work();
   for (std::thread& other : others) other.join();
+#elif defined(__wasi__)
+  for (Size k = first; k < end; ++k) body(k);  // has one core
 #else
   tbb::parallel_for(first, end, body);
 #endif
@@ -35,10 +40,12 @@ void parallelFor(Size first, Size end, const Body& body) {
 /// Calls `body(begin, end)` for ranges that make up [0, count), on all cores.
 template <typename Size, typename Body>
 void parallelRanges(Size count, const Body& body) {
-#ifdef SWEEPFACE_PLAIN_THREADS
+#if defined(SWEEPFACE_PLAIN_THREADS)
   constexpr Size kRanges = 8;
   parallelFor(Size{0}, kRanges,
               [&](Size k) { body(k * count / kRanges, (k + 1) * count / kRanges); });
+#elif defined(__wasi__)
+  if (count > 0) body(Size{0}, count);
 #else
   tbb::parallel_for(tbb::blocked_range<Size>(0, count), [&](const tbb::blocked_range<Size>& range) {
     body(range.begin(), range.end());

@@ -65,7 +65,7 @@ std::size_t brotliBytes(const std::string& file) {
     return 0;
   std::error_code none;
   const auto size = std::filesystem::file_size(utf8Path(out), none);
-  return none ? 0 : size;
+  return none ? 0 : static_cast<std::size_t>(size);
 }
 
 /// The source's GLB packed with this many bits, or why there is none.

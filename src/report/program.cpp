@@ -1,6 +1,6 @@
 #include "report/program.hpp"
 
-#ifdef _WIN32
+#if defined(_WIN32) || defined(__wasi__)
 #include <fmt/format.h>
 #include <random>
 #else
@@ -14,7 +14,7 @@
 
 namespace sweepface {
 
-#ifdef _WIN32
+#if defined(_WIN32) || defined(__wasi__)
 
 Ran run(const std::vector<std::string>&) { return Ran::missing; }
 

@@ -8,8 +8,8 @@ namespace sweepface {
 
 enum class Ran { well, badly, missing };
 
-/// On Windows every program is missing.
-#ifdef _WIN32
+/// On Windows and in WebAssembly every program is missing.
+#if defined(_WIN32) || defined(__wasi__)
 inline constexpr bool runsPrograms = false;
 #else
 inline constexpr bool runsPrograms = true;
