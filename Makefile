@@ -2,18 +2,20 @@
 BUILD := build/release
 FUZZ_SECONDS ?= 60
 
-.PHONY: help deps build demo web python windows test test-long test-arm test-windows bench fuzz format clean
+.PHONY: help deps build demo web web-tool python windows test test-long test-arm test-windows test-web-tool bench fuzz format clean
 
 help:
 	@echo 'make build      build the tool, build/release/sweepface'
 	@echo 'make demo       install what is missing, build, and show the tool on a sample face'
 	@echo 'make web        build the page in web/ and what it shows'
+	@echo 'make web-tool   build the tool in WebAssembly, the npm package in web/tool/'
 	@echo 'make python     build the package for Python'
 	@echo 'make windows    build the tool and the libraries for Windows'
 	@echo 'make test       install what is missing, build everything, run the tests'
 	@echo 'make test-long  the long tests, the benchmarks briefly, and all tests under sanitizers and with clang'
 	@echo 'make test-arm   the tests of what plays, built for 64-bit ARM and run in an emulator'
 	@echo 'make test-windows   the tests but those of the tool, built for Windows and run in Wine'
+	@echo 'make test-web-tool  the tests of the tool in WebAssembly'
 	@echo 'make bench      build and run the benchmarks'
 	@echo 'make fuzz       run each fuzz target for FUZZ_SECONDS (60)'
 	@echo 'make format     format the sources'
@@ -41,6 +43,13 @@ web:
 	$(BUILD)/examples/sample_face $(BUILD)/sample
 	cp $(BUILD)/sample/sample.sweep web/
 	@echo 'Now: python3 -m http.server --directory web, and open http://localhost:8000/'
+
+# The module of the npm package sweepface-tool, with which the page converts models.
+web-tool:
+	scripts/install-deps wasm wasi
+	scripts/wasi-root
+	cmake --preset wasi
+	cmake --build --preset wasi
 
 python:
 	scripts/install-deps python
@@ -89,6 +98,10 @@ test-arm:
 test-windows: windows
 	cmake --build --preset windows
 	ctest --preset windows
+
+test-web-tool: web web-tool
+	cmake --build $(BUILD) --target sweepface
+	cd web && node --test tool/test/*.test.js
 
 bench:
 	scripts/install-deps bench

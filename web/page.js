@@ -1,4 +1,5 @@
 // The page: shows a .sweep face, with sliders to try its expressions.
+import {faceOf, offerFile, stopConverting} from './page_convert.js';
 import {at, complain, dismiss, hush, say} from './page_message.js';
 import {average, buildSliders, filterSliders, followWeights, tellFigures} from './page_panel.js';
 import {
@@ -50,6 +51,7 @@ async function show(source, name, keepView = false) {
       placeCamera(model.meshes);
     }
     document.title = `${name} · Sweepface`;
+    offerFile(buffer, name);
     buildSliders(mesh, setWeight);
     drawLines();
     draw(0);
@@ -116,7 +118,7 @@ function prepare(mover) {
 }
 
 function invite() {
-  say('Drop a .sweep file here, or open one.');
+  say('Drop a .sweep, .glb or .vrm file here, or open one.');
 }
 
 function remove() {
@@ -209,11 +211,17 @@ function watchDensity() {
   }, {once: true});
 }
 
+/** Shows a file, or the face that it is converted into. */
+function showFile(source, name) {
+  stopConverting();
+  return show(faceOf(source, name), name);
+}
+
 /** Opens the first of several files that is named as a face, or else the first of all. */
 async function open(files) {
   const isNamedAsFace = ({name}) => name.toLowerCase().endsWith('.sweep');
   const [file] = [...files].sort((a, b) => isNamedAsFace(b) - isNamedAsFace(a));
-  if (file) await show(bytesOf(file), file.name);
+  if (file) await showFile(bytesOf(file), file.name);
 }
 
 async function bytesOf(file) {
@@ -278,7 +286,7 @@ for (const type of ['dragover', 'dragleave', 'drop'])
 
 fit();
 const wanted = new URLSearchParams(location.search).get('face') || null, start = wanted ?? 'sample.sweep';
-await show(download(start, wanted !== null), start.split('/').pop());
+await showFile(download(start, wanted !== null), start.split('/').pop());
 
 /** For the console. */
 globalThis.sweepface = {get mesh() { return mesh; }, show};

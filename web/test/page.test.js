@@ -327,7 +327,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
                                 ['button', 'Relax'], ['combobox', 'Detail'], ['checkbox', 'Lines'],
                                 ['searchbox', 'Filter expressions']])
       assert.equal(await page.getByRole(role, {name}).count(), 1, role);
-    await page.getByLabel('Open .sweep').focus();  // as keyboard users do
+    await page.getByLabel('Open').focus();  // as keyboard users do
     assert.equal(await page.evaluate(() => document.activeElement.id), 'file');
     await page.locator('#message[role="status"]:not(.error)').waitFor({state: 'attached'});
     assert.equal(await page.locator('#message').evaluate((message) => getComputedStyle(message).display), 'block');
@@ -664,7 +664,7 @@ test('the page says which file is missing, and without any asks for one', option
     assert.ok(!await page.locator('#unfound').isVisible());
     await page.goto(page.url().replace(/\?.*/, ''));
     await done();
-    assert.equal(await message.textContent(), 'Drop a .sweep file here, or open one.');
+    assert.equal(await message.textContent(), 'Drop a .sweep, .glb or .vrm file here, or open one.');
     assert.equal(await message.getAttribute('class'), '');
     await page.locator('#lod').selectOption('2');
     // The message is about the file that was requested last.
@@ -676,6 +676,18 @@ test('the page says which file is missing, and without any asks for one', option
     });
     assert.match(await message.textContent(), /^bad\.sweep /);
     assert.deepEqual(complaints.filter((complaint) => !complaint.includes('404')), []);
+  });
+});
+
+test('the page says what it needs to convert a model', options, () => {
+  const files = {'tool/sweepface_tool.wasm': (response) => response.writeHead(404).end()};
+  return withPage('index.html', {...visit, files}, async (page) => {
+    await page.waitForFunction(() => globalThis.sweepface);
+    await page.locator('#file').setInputFiles({name: 'head.VRM', mimeType: 'model/gltf-binary', buffer: Buffer.from('glTF')});
+    await page.waitForFunction(() => document.getElementById('message').className === 'error');
+    assert.equal(await page.locator('#message').textContent(),
+                 'head.VRM is a model; to convert it the page needs tool/sweepface_tool.wasm, which make web-tool makes.');
+    assert.ok(!await page.locator('#save').isVisible());
   });
 });
 
