@@ -1,5 +1,5 @@
 // Models become faces by the tool in WebAssembly, where that lies beside the page.
-import {at, say} from './page_message.js';
+import {at, complain, say} from './page_message.js';
 
 const isModel = (name) => /\.(glb|vrm)$/i.test(name);
 
@@ -25,8 +25,9 @@ export async function faceOf(source, name) {
   const {signal} = working = new AbortController();
   const [model, {convert}, wasm] = await Promise.all([source, import('./tool/sweepface_tool.js'), theModule(name)]);
   if (!model) return;
-  const tell = ({share, what}) => !signal.aborted && say(`Converting… ${Math.round(100 * share)} % ${what}`);
-  const {bytes} = await convert({[name]: model}, {pack: true, wasm, signal, onProgress: tell});
+  const tell = ({share, what}) => !signal.aborted && say(`Converting ${name}… ${Math.round(100 * share)} % ${what}`);
+  const {bytes, warnings} = await convert({[name]: model}, {pack: true, wasm, signal, onProgress: tell});
+  if (warnings.length > 0) complain(new Error(warnings.join(' ')));
   return bytes.buffer;
 }
 

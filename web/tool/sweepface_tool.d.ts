@@ -1,5 +1,5 @@
-/** Bytes of a file, or a text. Typed arrays are copied, not taken. */
-export type FileContent = ArrayBuffer | ArrayBufferView | string;
+/** Bytes of a file, or a text. They are copied, not taken. */
+export type FileContent = ArrayBuffer | ArrayBufferView | Blob | string;
 
 /** Files by their names, which may have folders: 'expressions/jawOpen.obj'. */
 export type Files = Record<string, FileContent>;
@@ -12,12 +12,12 @@ export interface Progress {
 }
 
 export interface RunOptions {
-  /** Called some times a second. */
+  /** Called some times a second; for small models perhaps only once. */
   onProgress?: (progress: Progress) => void;
   /** Ends the work: the promise is then rejected with the signal's reason. */
   signal?: AbortSignal;
-  /** sweepface_tool.wasm, compiled, where it cannot be fetched from beside this file. */
-  wasm?: WebAssembly.Module;
+  /** sweepface_tool.wasm, where it is not beside this file: its URL, its bytes, or compiled. */
+  wasm?: URL | string | BufferSource | WebAssembly.Module;
 }
 
 export interface Ran {
@@ -27,8 +27,8 @@ export interface Ran {
   output: string;
   /** Its errors and warnings, a line each. */
   errors: string;
-  /** The files that it wrote. */
-  files: Record<string, Uint8Array>;
+  /** The files that it wrote, by name: 'head.obj', or for a folder 'out/neutral.obj'. */
+  files: Record<string, Uint8Array<ArrayBuffer>>;
 }
 
 /**
@@ -61,11 +61,13 @@ export interface ConvertOptions extends RunOptions {
   uvBits?: number;
   /** Store what expressions turn about. */
   arcs?: boolean;
+  /** Whether to search for shape parameters, which takes longer; true if not given. */
+  shapes?: boolean;
 }
 
 export interface Converted {
   /** The .sweep file. */
-  bytes: Uint8Array;
+  bytes: Uint8Array<ArrayBuffer>;
   /** What `sweepface convert --json` reports. */
   report: {patches: number, vertices: number, targets: number, tolerance: number, worstDistance: number, bytes: number,
            [name: string]: unknown};
@@ -73,7 +75,7 @@ export interface Converted {
 }
 
 /**
- * Converts a model: the bytes of a .glb or .vrm, or files of which the first is the .gltf, or the neutral as .obj or .ply
+ * Converts a model: a .glb or .vrm, as bytes or as a File, or files of which the first is the .gltf, or the neutral as .obj or .ply
  * with its expressions after it. Fails with the tool's sentence where it cannot.
  */
-export function convert(model: ArrayBuffer | ArrayBufferView | Files, options?: ConvertOptions): Promise<Converted>;
+export function convert(model: ArrayBuffer | ArrayBufferView | Blob | Files, options?: ConvertOptions): Promise<Converted>;

@@ -5,26 +5,39 @@ const isNode = Boolean(globalThis.process?.versions?.node);
 /** A module of Node; its name is no constant, so that no bundler looks for it. */
 const nodeModule = (name) => import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${name}`);
 
-async function fetchModule(url) {
+async function fetchCode(url) {
   if (isNode && url.protocol === 'file:') return (await nodeModule('fs/promises')).readFile(url);
   const response = await fetch(url);
   if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
-  return response.arrayBuffer();
+  const code = await response.arrayBuffer();
+  if (!WebAssembly.validate(code.slice(0, 8)))
+    throw new Error(`Could not load ${url}: the server sent something else; see docs/web-tool.md for bundlers.`);
+  return code;
 }
 
 let compiled;
 /** The module beside this file, fetched and compiled once. */
 function moduleBeside() {
-  compiled ??= fetchModule(new URL('./sweepface_tool.wasm', import.meta.url)).then((code) => WebAssembly.compile(code));
+  compiled ??= fetchCode(new URL('./sweepface_tool.wasm', import.meta.url)).then((code) => WebAssembly.compile(code));
   compiled.catch(() => compiled = undefined);  // to try again
   return compiled;
+}
+
+/** The module that is given: compiled, as bytes, or where it is. */
+async function moduleOf(wasm) {
+  if (wasm === undefined || wasm === null) return moduleBeside();
+  if (wasm instanceof WebAssembly.Module) return wasm;
+  const isPlace = wasm instanceof URL || typeof wasm === 'string';
+  return WebAssembly.compile(isPlace ? await fetchCode(new URL(wasm, globalThis.location?.href)) : wasm);
 }
 
 /** Starts a worker, which calls `heard` with its messages and `failed` with why it ended. */
 async function startWorker(heard, failed) {
   if (isNode) {
     const {Worker: Thread} = await nodeModule('worker_threads');
-    return new Thread(new URL('./tool_thread.js', import.meta.url)).on('message', heard).on('error', failed);
+    const file = new URL('./tool_thread.js', import.meta.url);
+    return new Thread(file, {execArgv: []}).on('message', heard).on('error', failed)
+      .on('exit', () => failed(new Error('its worker ended')));
   }
   const worker = new Worker(new URL('./tool_thread.js', import.meta.url), {type: 'module'});
   worker.addEventListener('message', ({data}) => heard(data));
@@ -32,42 +45,58 @@ async function startWorker(heard, failed) {
   return worker;
 }
 
-function bytesOf(given, name) {
+async function bytesOf(given, name) {
   if (typeof given === 'string') return new TextEncoder().encode(given);
+  if (given instanceof Blob) return new Uint8Array(await given.arrayBuffer());
   if (given instanceof ArrayBuffer) return new Uint8Array(given);
   if (ArrayBuffer.isView(given)) return new Uint8Array(given.buffer, given.byteOffset, given.byteLength);
-  throw new TypeError(`The file ${name} must be given as bytes or as a text.`);
+  throw new TypeError(`${name} must be given as bytes, a Blob or a text.`);
 }
 
 /** "sweepface: 42 % fitting" in what the tool prints as it works. */
 const PROGRESS = /^sweepface: (\d+) % (.*)$/;
 
-/** Runs the tool; see sweepface_tool.d.ts. */
-export async function runTool(args, {files = {}, onProgress, signal, wasm} = {}) {
-  const given = Object.fromEntries(Object.entries(files).map(([name, bytes]) => [name, bytesOf(bytes, name)]));
-  const module = await (wasm ?? moduleBeside());
-  signal?.throwIfAborted();
-  let settle;
-  const result = new Promise((resolve, reject) => settle = {resolve, reject});
-  const fail = (message) => settle.reject(new Error(`The tool failed: ${message}.`));
-  let errors = '';
-  const worker = await startWorker(({line, failure, ...ended}) => {
-    const progress = line?.match(PROGRESS);
-    if (progress) onProgress?.({share: Number(progress[1]) / 100, what: progress[2]});
-    else if (line !== undefined) errors += line + '\n';
-    else if (failure !== undefined) fail(failure);
-    else settle.resolve({...ended, errors});
-  }, ({message}) => fail(message));
-  const stop = () => settle.reject(signal.reason);
-  signal?.addEventListener('abort', stop);
-  if (signal?.aborted) stop();
-  worker.postMessage({module, args: args.map(String), files: given, tellsProgress: Boolean(onProgress)});
-  try {
-    return await result;
-  } finally {
+/** Lets a worker work; resolves with its last message, and rejects with why there is none. */
+function work(job, {onProgress, signal}) {
+  let worker, errors = '', stop;
+  const ended = new Promise((resolve, reject) => {
+    const fail = ({message}) => reject(new Error(`The tool failed: ${message}.`));
+    const hear = ({line, failure, ...result}) => {
+      const progress = line?.match(PROGRESS);
+      if (failure !== undefined) return fail({message: failure});
+      if (line === undefined) return resolve({...result, errors});
+      if (!progress) errors += line + '\n';
+      else onProgress?.({share: Number(progress[1]) / 100, what: progress[2]});
+    };
+    const heard = (message) => {
+      try {
+        hear(message);
+      } catch (error) {  // of the caller's own function
+        reject(error);
+      }
+    };
+    stop = () => reject(signal.reason);
+    signal?.addEventListener('abort', stop);
+    startWorker(heard, fail).then((started) => {
+      worker = started;
+      if (signal?.aborted) return stop();
+      worker.postMessage(job);
+    }).catch(reject);
+  });
+  return ended.finally(() => {
     signal?.removeEventListener('abort', stop);
-    worker.terminate();
-  }
+    worker?.terminate();
+  });
+}
+
+/** Runs the tool; see sweepface_tool.d.ts. */
+export async function runTool(args, {files = {}, wasm, ...options} = {}) {
+  if (!Array.isArray(args)) throw new TypeError("The words of a command are a list, such as ['info', 'face.sweep'].");
+  const given = await Promise.all(Object.entries(files).map(async ([name, file]) => [name, await bytesOf(file, name)]));
+  const module = await moduleOf(wasm);
+  options.signal?.throwIfAborted();
+  const job = {module, args: args.map(String), files: given, tellsProgress: Boolean(options.onProgress)};
+  return work(job, options);
 }
 
 /** {maxBytes: 65536, pack: true, mesh: ['A', 'B']} as --max-bytes 65536 --pack --mesh A --mesh B. */
@@ -81,20 +110,30 @@ function words(options) {
   });
 }
 
-/** Of the names of meshes those that are targets: what comes with a .gltf or an .obj is not. */
+/** The files of a model, of which the first is the one to convert. */
+function filesOf(model) {
+  if (ArrayBuffer.isView(model) || model instanceof ArrayBuffer) return {'model.glb': model};
+  if (model instanceof Blob) return {[model.name ?? 'model.glb']: model};
+  if (typeof model !== 'object' || model === null || Object.keys(model).length === 0)
+    throw new TypeError("convert() needs a model: the bytes of a .glb, a File, or {'neutral.obj': bytes, ...}.");
+  return model;
+}
+
+const OPTIONS = ['tolerance', 'pack', 'maxBytes', 'mesh', 'strip', 'bare', 'subdivide', 'normalLimit', 'normalTolerance',
+                 'uvBits', 'arcs', 'shapes'];
+
+/** Of the names of files those that are targets: what comes with a .gltf or an .obj is not. */
 const isMesh = (name) => /\.(obj|ply)$/i.test(name);
 
 /** Converts a model into a .sweep file; see sweepface_tool.d.ts. */
-export async function convert(given, {onProgress, signal, wasm, ...options} = {}) {
-  const isOne = ArrayBuffer.isView(given) || given instanceof ArrayBuffer;
-  const files = isOne ? {'model.glb': given} : given;
-  const [first, ...others] = Object.keys(files);
-  if (first === undefined) throw new TypeError('convert() needs a model.');
-  const targets = isMesh(first) ? others.filter(isMesh) : [];
-  const output = 'converted.sweep';
-  const ran = await runTool(
-    ['convert', '--json', '-o', output, ...words(options), '--', first, ...targets],
-    {files, onProgress, signal, wasm});
+export async function convert(model, {onProgress, signal, wasm, ...options} = {}) {
+  const unknown = Object.keys(options).find((key) => !OPTIONS.includes(key));
+  if (unknown !== undefined) throw new TypeError(`convert() has no option '${unknown}'; it has ${OPTIONS.join(', ')}.`);
+  const {shapes = true, ...others} = options, files = filesOf(model), output = 'converted.sweep';
+  const [first, ...rest] = Object.keys(files);
+  const targets = isMesh(first) ? rest.filter(isMesh) : [];
+  const ran = await runTool(['convert', '--json', '-o', output, ...words({...others, noShapes: !shapes}), '--', first, ...targets],
+                            {files, onProgress, signal, wasm});
   const messages = ran.errors.split('\n').filter((line) => line !== '').map((line) => line.replace(/^sweepface: /, ''));
   if (ran.code !== 0) throw new Error(messages[0] ?? `The tool ended with ${ran.code}.`);
   return {

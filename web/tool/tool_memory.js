@@ -60,9 +60,9 @@ export class MemoryFiles {
   #open = new Map();
   #next = 0;
 
-  /** `given`: {name: bytes}; a name may have folders. */
+  /** `given`: pairs of a name, which may have folders, and bytes. */
   constructor(given) {
-    for (const [name, bytes] of Object.entries(given)) {
+    for (const [name, bytes] of given) {
       const path = normal(name);
       for (let k = path.indexOf('/', 1); k > 0; k = path.indexOf('/', k + 1))
         if (!this.#entries.has(path.slice(0, k))) this.#entries.set(path.slice(0, k), new Entry(true));

@@ -14,3 +14,12 @@ export function wordOf(word, platform = process.platform) {
   if (!isWindows(platform)) return word;
   return /^[A-Za-z]:[\\/]/.test(word) ? pathOf(word, platform) : word.replaceAll('\\', '/');
 }
+
+/** The folder that relative paths start from; none if it was removed. */
+export function currentFolder() {
+  try {
+    return pathOf(process.cwd());
+  } catch {
+    return '/';
+  }
+}

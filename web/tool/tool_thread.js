@@ -2,10 +2,6 @@
 import {MemoryFiles} from './tool_memory.js';
 import {Wasi} from './tool_wasi.js';
 
-const threads = 'node:worker_threads';  // in a variable, so that no bundler looks for it
-const port = globalThis.postMessage ? globalThis
-                                    : (await import(/* @vite-ignore */ /* webpackIgnore: true */ threads)).parentPort;
-
 /** Calls `tell` with every line of what is written. */
 function lines(tell) {
   const decoder = new TextDecoder();
@@ -17,7 +13,7 @@ function lines(tell) {
   };
 }
 
-async function run({module, args, files: given, tellsProgress}) {
+async function run({module, args, files: given, tellsProgress}, tell) {
   const files = new MemoryFiles(given), decoder = new TextDecoder();
   let output = '';
   const wasi = new Wasi({
@@ -25,11 +21,21 @@ async function run({module, args, files: given, tellsProgress}) {
     env: tellsProgress ? {SWEEPFACE_PROGRESS: '1'} : {},
     files,
     output: {isTerminal: false, write: (bytes) => output += decoder.decode(bytes, {stream: true})},
-    errors: {isTerminal: false, write: lines((line) => port.postMessage({line}))},
+    errors: {isTerminal: false, write: lines((line) => tell({line}))},
   });
   const code = await wasi.run(module);
-  port.postMessage({code, output, files: files.written()});
+  tell({code, output, files: files.written()});
 }
 
-const hear = (message) => run(message).catch((error) => port.postMessage({failure: error.message}));
-if (port.on) port.on('message', hear); else port.addEventListener('message', ({data}) => hear(data));
+function serve(port, listen) {
+  const tell = (message) => port.postMessage(message);
+  listen((job) => run(job, tell).catch((error) => tell({failure: error.message})));
+}
+
+// Bundlers make scripts of workers in which nothing can be awaited.
+const threads = 'node:worker_threads';  // in a variable, so that no bundler looks for it
+if (globalThis.postMessage)
+  serve(globalThis, (hear) => addEventListener('message', ({data}) => hear(data)));
+else
+  import(/* @vite-ignore */ /* webpackIgnore: true */ threads)
+    .then(({parentPort}) => serve(parentPort, (hear) => parentPort.on('message', hear)));

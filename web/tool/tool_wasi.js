@@ -4,7 +4,7 @@
 const ERRNO = {
   EACCES: 2, EAGAIN: 6, EBADF: 8, EBUSY: 10, EDQUOT: 19, EEXIST: 20, EFBIG: 22, EINTR: 27, EINVAL: 28, EIO: 29, EISDIR: 31,
   ELOOP: 32, EMFILE: 33, ENAMETOOLONG: 37, ENFILE: 41, ENOENT: 44, ENOMEM: 48, ENOSPC: 51, ENOSYS: 52, ENOTDIR: 54,
-  ENOTEMPTY: 55, ENOTSUP: 58, EPERM: 63, EPIPE: 64, EROFS: 69, ETXTBSY: 74, EXDEV: 75,
+  ENOTEMPTY: 55, ENOTSUP: 58, EPERM: 63, EPIPE: 64, EROFS: 69, ESPIPE: 70, ETXTBSY: 74, EXDEV: 75,
 };
 const KIND = {device: 2, folder: 3, file: 4, link: 7};
 const CREATE = 1, FOLDER = 2, EXCLUSIVE = 4, TRUNCATE = 8;  // how to open
@@ -119,14 +119,16 @@ export class Wasi {
     const access = !writes ? constants.O_RDONLY : rights & MAY_READ ? constants.O_RDWR : constants.O_WRONLY;
     const mode = access | (how & CREATE ? constants.O_CREAT : 0) | (how & EXCLUSIVE ? constants.O_EXCL : 0) |
       (how & TRUNCATE ? constants.O_TRUNC : 0) | (flags & APPEND ? constants.O_APPEND : 0);
-    return {path, handle: this.#files.openSync(this.#place(path), mode, 0o666), position: 0, appends: (flags & APPEND) !== 0};
+    const handle = this.#files.openSync(this.#place(path), mode, 0o666);
+    const isFile = this.#files.fstatSync(handle).isFile();  // and no pipe, which has no positions
+    return {path, handle, position: 0, hasPosition: isFile && !(flags & APPEND)};
   }
 
   /** Reads or writes parts one after another; returns how many bytes that were. */
   #transfer(file, parts, step) {
     let all = 0;
     for (const part of parts) {
-      const count = step(file.handle, part, 0, part.length, file.appends ? null : file.position);
+      const count = step(file.handle, part, 0, part.length, file.hasPosition ? file.position : null);
       file.position += count, all += count;
       if (count < part.length) break;
     }
@@ -154,7 +156,7 @@ export class Wasi {
 
   #seek(number, offset, from, result) {
     const file = this.#opened(number);
-    if (file.handle === undefined) throw refused(file.isFolder ? 'EISDIR' : 'EPIPE');
+    if (!file.hasPosition) throw refused(file.isFolder ? 'EISDIR' : 'ESPIPE');
     const base = [0, file.position, Number(this.#files.fstatSync(file.handle).size)][from];
     const position = base + Number(offset);
     if (!(position >= 0)) throw refused('EINVAL');
@@ -252,8 +254,8 @@ export class Wasi {
         call(...given);
         return 0;
       } catch (error) {
-        if (ERRNO[error?.code] === undefined) throw error;
-        return ERRNO[error.code];
+        if (error?.code === undefined) throw error;
+        return ERRNO[error.code] ?? ERRNO.EIO;
       }
     };
     const imports = Object.fromEntries(Object.entries(calls).map(([name, call]) => [name, answered(call)]));

@@ -19,7 +19,7 @@ function onDisk(given) {
   }
   return [fs, (path) => folder + path];
 }
-const inMemory = (given) => [new MemoryFiles(given), (path) => path];
+const inMemory = (given) => [new MemoryFiles(Object.entries(given)), (path) => path];
 
 /** The code of the error that a call ends with, or what it returns. */
 function outcome(call) {
@@ -96,7 +96,7 @@ for (const [kind, make] of [['in memory', inMemory], ['on disk', onDisk]]) {
 
 test('only what was written is returned, and what was given stays as it is', () => {
   const given = {'a.txt': bytes('hello'), 'b.txt': bytes('there'), 'c.txt': bytes('again')};
-  const files = new MemoryFiles(given), {O_WRONLY, O_TRUNC} = files.constants;
+  const files = new MemoryFiles(Object.entries(given)), {O_WRONLY, O_TRUNC} = files.constants;
   for (const [name, how] of [['/b.txt', O_TRUNC], ['/c.txt', 0]]) {
     const file = files.openSync(name, O_WRONLY | how);
     files.writeSync(file, bytes('x'), 0, 1, 0);

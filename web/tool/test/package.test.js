@@ -27,6 +27,7 @@ test('the package holds what is needed; it runs, and its types fit', () => {
     const made: Converted = await convert(new Uint8Array(3), {tolerance: 0.1, pack: true, strip: ['order', 'uv'],
       mesh: ['Head', 'Neck'], onProgress: ({share, what}) => console.log(share.toFixed(2), what.length)});
     const ran: Ran = await runTool(['info', 'a.sweep', '--json'], {files: {'a.sweep': made.bytes, 'a.obj': 'v 0 0 0'}});
+    console.log(new Blob([made.bytes]).size, await convert(new File([made.bytes], 'a.glb'), {shapes: false}));
     console.log(ran.code + made.report.worstDistance, made.warnings.join(), ran.files['a'].length);
     // @ts-expect-error
     await convert(3);

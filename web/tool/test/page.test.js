@@ -22,7 +22,7 @@ test('a model becomes a face that can be played and saved', {skip, timeout: 300_
     await open('broken.glb', Buffer.from('glTF, but not really'));
     await says('broken.glb: ');
     await open('sample.glb', glb);
-    await says('Converting… ');
+    await says('Converting sample.glb… ');
     await open('other.glb', glb);  // ends the first
     await page.waitForFunction(() => globalThis.sweepface.mesh, undefined, {timeout: 200_000});
     assert.match(await page.title(), /^other\.glb/);

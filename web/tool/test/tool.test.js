@@ -1,7 +1,7 @@
 // The tool in WebAssembly, as a program and as functions, against the native one. SWEEPFACE_TOOL names the latter,
 // SWEEPFACE_MODELS a folder of the sample face's meshes.
 import assert from 'node:assert/strict';
-import {spawnSync} from 'node:child_process';
+import {execFileSync, spawn, spawnSync} from 'node:child_process';
 import fs from 'node:fs';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
@@ -134,17 +134,58 @@ test('models are given as files, too', async () => {
 test('what is wrong with a model is told by the tool', async () => {
   await assert.rejects(convert(new Uint8Array(9)), {message: /^model\.glb: .*JSON/});
   await assert.rejects(convert(glb, {tolerance: -1}), {message: /--tolerance/});
-  await assert.rejects(convert(glb, {nothing: 1}), {message: /--nothing/});
+  await assert.rejects(convert(glb, {tolerence: 1}), {message: /^convert\(\) has no option 'tolerence'; it has tolerance, /});
   await assert.rejects(convert(glb, {mesh: 'Nobody'}), {message: /Nobody/});
-  await assert.rejects(convert({}), {message: 'convert() needs a model.'});
-  await assert.rejects(convert({'a.obj': 7}), {name: 'TypeError', message: 'The file a.obj must be given as bytes or as a text.'});
+  for (const none of [{}, undefined, null, 'head.glb', 7]) await assert.rejects(convert(none), {message: /^convert\(\) needs a model/});
+  await assert.rejects(convert({'a.obj': 7}), {name: 'TypeError', message: 'a.obj must be given as bytes, a Blob or a text.'});
   await assert.rejects(convert({'--help': neutral}), {message: /--help/});
+  await assert.rejects(runTool('info a.sweep'), {name: 'TypeError', message: /are a list/});
+  await assert.rejects(runTool(['info'], {wasm: new Uint8Array(9)}), {name: 'CompileError'});
 });
 
 test('work is ended by a signal', async () => {
   await assert.rejects(convert(glb, {signal: AbortSignal.abort()}), {name: 'AbortError'});
   const control = new AbortController(), why = new Error('enough');
   await assert.rejects(convert(glb, {signal: control.signal, onProgress: () => control.abort(why)}), why);
+  await assert.rejects(convert(glb, {onProgress: () => { throw why; }}), why);
+});
+
+test('a script ends with its last call, whatever flags Node was started with', () => {
+  const script = `import {convert, runTool} from '${new URL('../sweepface_tool.js', import.meta.url)}';
+    const {bytes} = await convert({'a.obj': new Blob([${JSON.stringify(neutral)}]), 'b.obj': ${JSON.stringify(lifted)}});
+    await convert({}).catch(() => {});
+    await convert(bytes, {wasm: () => 1}).catch(() => {});
+    console.log((await runTool(['info', '__proto__'], {files: {['__proto__']: bytes}})).output);`;
+  const {status, stdout, stderr} =
+    spawnSync(process.execPath, ['--input-type=module', '-e', script], {encoding: 'utf8', timeout: 30_000});
+  assert.deepEqual([status, stderr], [0, '']);
+  assert.match(stdout, /targets\s+1: b/);
+});
+
+test('pipes are read and written', () => {
+  const folder = folderOf(files);
+  assert.equal(run(folder, 'convert', 'neutral.obj', 'up.obj', '-o', 'a.sweep').status, 0);
+  const shell = (line) => execFileSync('bash', ['-c', line.replaceAll('sweepface', `"${process.execPath}" "${cli}"`)], {cwd: folder});
+  assert.match(shell('cat a.sweep | sweepface info /dev/stdin').toString(), /targets\s+1: up/);
+  shell('sweepface edit a.sweep --ribbon 0 --eta 2 -q -o /dev/stdout | cat > piped.sweep');
+  assert.equal(run(folder, 'check', 'piped.sweep').status, 0);
+});
+
+test('an interrupt ends the work and leaves nothing', async () => {
+  const folder = newFolder();
+  fs.writeFileSync(join(folder, 'sample.sweep'), (await convert(glb, {tolerance: 1})).bytes);
+  const child = spawn(process.execPath, [cli, 'export', 'sample.sweep', '--lod', '8', '-o', 'big.obj'], {cwd: folder});
+  let stderr = '';
+  child.stderr.on('data', (text) => stderr += text);
+  const ended = new Promise((resolve) => child.on('exit', resolve));
+  while (!fs.readdirSync(folder).some((name) => name.endsWith('.tmp'))) {
+    assert.equal(child.exitCode, null, 'it was too fast');
+    await new Promise((done) => setTimeout(done, 5));
+  }
+  child.kill('SIGINT');
+  assert.equal(await ended, 130);
+  assert.equal(stderr, 'sweepface: Interrupted; nothing was written.\n');
+  assert.deepEqual(fs.readdirSync(folder), ['sample.sweep']);
 });
 
 test('pictures and reports are made as well', () => {
