@@ -2,6 +2,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -28,11 +29,15 @@ struct ConvertArguments {
   MeshArguments meshes;
   std::string output, strip;
   double tolerance = 0, normalLimit = 0, normalTolerance = 0;
-  std::size_t maxBytes = 0;
+  std::uint64_t maxBytes = 0;
   std::optional<int> uvBits;
   int threads = 0;
   bool pack = false, arcs = false, noShapes = false, bare = false, quiet = false, json = false;
   bool packs() const { return pack || maxBytes > 0; }
+  std::size_t mostBytes() const {
+    return static_cast<std::size_t>(
+        std::min<std::uint64_t>(maxBytes, std::numeric_limits<std::size_t>::max()));
+  }
 };
 
 void addOptions(CLI::App& app, ConvertArguments& a) {
@@ -222,7 +227,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
     return ok;
   };
   Result<Conversion> conversion =
-      a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar), a.maxBytes, finish)
+      a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar), a.mostBytes(), finish)
                      : convert(source->rig, optionsOf(a, *bar));
   if (!conversion) return refused(conversion.error());
   bar->show("verifying", 1);

@@ -39,6 +39,7 @@ async function show(source, name, keepView = false) {
     stand(next.mover, mesh && keepView ? mesh.face.weights : {});
     remove();
     shown = mine;
+    stopConverting();
     file = Object.assign(own, {source: buffer, before: undefined});
     model = next;
     mesh = model.mover;
@@ -212,10 +213,7 @@ function watchDensity() {
 }
 
 /** Shows a file, or the face that it is converted into. */
-function showFile(source, name) {
-  stopConverting();
-  return show(faceOf(source, name), name);
-}
+const showFile = (source, name) => show(faceOf(source, name), name);
 
 /** Opens the first of several files that is named as a face, or else the first of all. */
 async function open(files) {

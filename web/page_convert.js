@@ -1,5 +1,5 @@
 // Models become faces by the tool in WebAssembly, where that lies beside the page.
-import {at, complain, say} from './page_message.js';
+import {at, complain, tell} from './page_message.js';
 
 const isModel = (name) => /\.(glb|vrm)$/i.test(name);
 
@@ -14,7 +14,7 @@ async function theModule(name) {
 
 let working;  // what ends the conversion under way
 
-/** Ends a conversion whose face nobody waits for any more. */
+/** Ends the conversion under way, as another face is shown. */
 export function stopConverting() {
   working?.abort();
 }
@@ -22,11 +22,12 @@ export function stopConverting() {
 /** The bytes of a face, given those of a file, which are converted if it is a model, or promises of them. */
 export async function faceOf(source, name) {
   if (!isModel(name)) return source;
+  stopConverting();
   const {signal} = working = new AbortController();
   const [model, {convert}, wasm] = await Promise.all([source, import('./tool/sweepface_tool.js'), theModule(name)]);
   if (!model) return;
-  const tell = ({share, what}) => !signal.aborted && say(`Converting ${name}… ${Math.round(100 * share)} % ${what}`);
-  const {bytes, warnings} = await convert({[name]: model}, {pack: true, wasm, signal, onProgress: tell});
+  const onProgress = ({share, what}) => tell(`Converting ${name}… ${Math.round(100 * share)} % ${what}`);
+  const {bytes, warnings} = await convert({[name]: model}, {pack: true, wasm, signal, onProgress});
   if (warnings.length > 0) complain(new Error(warnings.join(' ')));
   return bytes.buffer;
 }

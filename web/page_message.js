@@ -14,6 +14,11 @@ export function complain(error) {
 
 const isError = () => message.className === 'error';
 
+/** Says how far something has got, unless an error is to be read. */
+export function tell(text) {
+  if (!isError()) say(text);
+}
+
 /** Removes the message if it is an error; given a text, only if it is that error. */
 export function dismiss(text = message.textContent) {
   if (isError() && message.textContent === text) say('');

@@ -64,13 +64,13 @@ export function average(name, value) {
   averages[name] = averages[name] === undefined ? value : 0.9 * averages[name] + 0.1 * value;
 }
 
-const megabytes = (size) => `${(size / 1e6).toFixed(size < 1e6 ? 2 : 1)} MB`;
+const bytes = (size) => size < 1e6 ? `${(size / 1e3).toFixed(1)} KB` : `${(size / 1e6).toFixed(1)} MB`;
 
 export function tellFigures({file, vertices, loading, memory}) {
   const rows = {
-    'file': megabytes(file), 'vertices': vertices.toLocaleString('en'), 'loaded in': `${loading.toFixed(0)} ms`,
+    'file': bytes(file), 'vertices': vertices.toLocaleString('en'), 'loaded in': `${loading.toFixed(0)} ms`,
     'evaluation': `${(averages.evaluation ?? 0).toFixed(2)} ms`, 'frame': `${(averages.frame ?? 0).toFixed(1)} ms`,
-    'memory': megabytes(memory)
+    'memory': bytes(memory)
   };
   at('figures').replaceChildren(...Object.entries(rows).flatMap(([name, value]) => {
     const term = document.createElement('dt'), text = document.createElement('dd');

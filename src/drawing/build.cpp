@@ -68,7 +68,7 @@ class Builder {
     if (!surface) return failNamed(d_, w_, surface.error().message);
     plain_ = std::move(*surface);
     const std::size_t poses = 1 + d_.expressions.size();
-    if (static_cast<std::size_t>(plain_.storedCount()) * poses > codec::kMostVectors)
+    if (static_cast<std::uint64_t>(plain_.storedCount()) * poses > codec::kMostVectors)
       return refuse({}, fmt::format("it stores {} vectors in each of {} shapes, together more than "
                                     "the {} of a file; give fewer expressions",
                                     plain_.storedCount(), poses, codec::kMostVectors));

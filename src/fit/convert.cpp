@@ -155,7 +155,7 @@ class Converter {
     auto fitted = fitSurface(layout, data, limits, options_.chooseShapes, progress_, reach_);
     if (!fitted) return std::unexpected(fitted.error());
     const auto stored = fitted->solution.rows();
-    if (static_cast<std::size_t>(stored) * data.poses > codec::kMostVectors)
+    if (static_cast<std::uint64_t>(stored) * data.poses > codec::kMostVectors)
       return fail("the surface takes ", stored, " vectors in each of ", data.poses,
                   " shapes, together more than the ", codec::kMostVectors,
                   " of a file; give fewer targets, or allow a larger tolerance");

@@ -172,7 +172,8 @@ class ClipReader {
       return fail(
           "the channels of its animation have more values than a clip can hold; export it in "
           "parts.");
-    if (times->empty() || values->size() != times->size() * track.names.size() * (cubic ? 3 : 1))
+    const std::uint64_t perKey = std::uint64_t{track.names.size()} * (cubic ? 3 : 1);
+    if (times->empty() || values->size() != times->size() * perKey)
       in.refuse(fmt::format("it has {} values for {} keys of {} targets{}", values->size(),
                             times->size(), track.names.size(),
                             cubic ? ", and a cubic spline three for each" : ""));

@@ -58,7 +58,8 @@ Result<std::string> inflated(std::string_view bytes) {
   std::string out;
   if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, EndInflate> owned(&stream);
-  const std::size_t most = std::min(io::maxFileBytes, mostInflated(bytes.size()));
+  const auto most = static_cast<std::size_t>(
+      std::min<std::uint64_t>(io::maxFileBytes, mostInflated(bytes.size())));
   const int said =
       runPieces(stream, bytes, out, most, [&](bool) { return inflate(&stream, Z_NO_FLUSH); });
   if (out.size() > most) return fail("it holds far more than its size can mean");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -12,7 +13,7 @@ std::string deflated(std::string_view bytes);
 
 /// The most that a stream of this many bytes may hold, so that a few bytes cannot claim gigabytes.
 /// JSON and meshes stay far below.
-constexpr std::size_t mostInflated(std::size_t bytes) { return (1 << 16) + 256 * bytes; }
+constexpr std::uint64_t mostInflated(std::uint64_t bytes) { return (1 << 16) + 256 * bytes; }
 
 /// Inflates a zlib stream. Refuses streams that are damaged, are followed by something, or hold too
 /// much.

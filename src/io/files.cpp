@@ -221,12 +221,14 @@ Result<std::string> readFile(const fs::path& path) {
   if (!file) return cannotRead(reason(errno) + (errno == EACCES ? "; change its permissions" : ""));
 
   std::string bytes;
+  constexpr const char* isTooLarge = "it is larger than 2 GiB";
   const auto size = fs::file_size(path, error);
-  if (!error && size <= io::maxFileBytes) bytes.reserve(static_cast<std::size_t>(size));
+  if (!error && size > io::maxFileBytes) return cannotRead(isTooLarge);
+  if (!error) bytes.reserve(static_cast<std::size_t>(size));
   std::array<char, 1 << 16> chunk;
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     bytes.append(chunk.data(), count);
-    if (bytes.size() > io::maxFileBytes) return cannotRead("it is larger than 2 GiB");
+    if (bytes.size() > io::maxFileBytes) return cannotRead(isTooLarge);
   }
   if (std::ferror(file.get())) return cannotRead(reason(errno));
   return bytes;

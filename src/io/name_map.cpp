@@ -126,7 +126,7 @@ Result<Clip> renamed(Clip clip, const NameMap& map, std::span<const std::string>
   if (!mapped) return std::unexpected(mapped.error());
   const std::vector<MappedColumn>& columns = *mapped;
   const std::size_t n = clip.names.size(), frames = clip.times.size();
-  if (frames * columns.size() > kMostClipWeights)
+  if (columns.size() > kMostClipWeights / std::max<std::size_t>(frames, 1))
     return fail(fmt::format("{}: the clip would have too many weights; cut it.", map.called));
   std::vector<double> weights;
   weights.reserve(frames * columns.size());

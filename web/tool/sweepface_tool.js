@@ -58,7 +58,7 @@ const PROGRESS = /^sweepface: (\d+) % (.*)$/;
 
 /** Lets a worker work; resolves with its last message, and rejects with why there is none. */
 function work(job, {onProgress, signal}) {
-  let worker, errors = '', stop;
+  let worker, hasEnded = false, errors = '', stop;
   const ended = new Promise((resolve, reject) => {
     const fail = ({message}) => reject(new Error(`The tool failed: ${message}.`));
     const hear = ({line, failure, ...result}) => {
@@ -77,13 +77,14 @@ function work(job, {onProgress, signal}) {
     };
     stop = () => reject(signal.reason);
     signal?.addEventListener('abort', stop);
+    if (signal?.aborted) return stop();
     startWorker(heard, fail).then((started) => {
       worker = started;
-      if (signal?.aborted) return stop();
-      worker.postMessage(job);
+      if (hasEnded) worker.terminate(); else worker.postMessage(job);
     }).catch(reject);
   });
   return ended.finally(() => {
+    hasEnded = true;
     signal?.removeEventListener('abort', stop);
     worker?.terminate();
   });

@@ -64,6 +64,7 @@ export class MemoryFiles {
   constructor(given) {
     for (const [name, bytes] of given) {
       const path = normal(name);
+      if (path === '/') throw new TypeError(`'${name}' is no name of a file.`);
       for (let k = path.indexOf('/', 1); k > 0; k = path.indexOf('/', k + 1))
         if (!this.#entries.has(path.slice(0, k))) this.#entries.set(path.slice(0, k), new Entry(true));
       this.#entries.set(path, new Entry(false, bytes));

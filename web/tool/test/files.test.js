@@ -105,6 +105,11 @@ test('only what was written is returned, and what was given stays as it is', () 
   assert.deepEqual(Object.values(given).map(text), ['hello', 'there', 'again']);
 });
 
+test('a file has a name', () => {
+  for (const name of ['', '.', '/', 'a/..'])
+    assert.throws(() => new MemoryFiles([[name, bytes('')]]), {name: 'TypeError', message: `'${name}' is no name of a file.`});
+});
+
 test('paths of Windows begin with a slash inside', () => {
   assert.equal(pathOf('C:\\faces\\new', 'win32'), '/C:/faces/new');
   assert.equal(place('/C:/faces/new', 'win32'), 'C:/faces/new');

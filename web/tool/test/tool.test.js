@@ -33,16 +33,20 @@ function folderOf(given) {
 }
 
 test('the program says what the native one says', () => {
-  const folder = folderOf(files);
+  const folder = folderOf({...files, 'tiny.obj': neutral.replace('1 1 0', '1 1 1e-400'), 'zero.obj': neutral.replace('1 1 0', '1 1 0e-400'),
+                           'large.obj': ''});
+  fs.truncateSync(join(folder, 'large.obj'), 2200 * 2 ** 20);
   const commands = [['--version'], ['--help'], ['convert', '--help'], [], ['nothing'], ['convert', 'neutral.obj'], ['info', 'none.sweep'],
                     ['convert', 'neutral.obj', 'none.obj', '-o', 'a.sweep'], ['convert', 'neutral.obj', '-o', 'none/a.sweep'],
-                    ['convert', 'neutral.obj', 'up.obj', '-o', 'neutral.obj'], ['info', '.'], ['measure', 'a', 'b', '--nothing']];
+                    ['convert', 'neutral.obj', 'up.obj', '-o', 'neutral.obj'], ['info', '.'], ['measure', 'a', 'b', '--nothing'],
+                    ['convert', 'tiny.obj', '-o', 'a.sweep'], ['convert', 'neutral.obj', 'large.obj', '-o', 'a.sweep'],
+                    ['convert', 'zero.obj', '-q', '-o', '/dev/null', '--max-bytes', '4294967296']];
   for (const command of commands) {
     const {status, stdout, stderr} = run(folder, ...command), expected = runNative(folder, ...command);
     assert.deepEqual({status, stdout, stderr}, {status: expected.status, stdout: expected.stdout, stderr: expected.stderr},
                      command.join(' '));
   }
-  assert.deepEqual(fs.readdirSync(folder).sort(), ['neutral.obj', 'up.obj']);
+  assert.deepEqual(fs.readdirSync(folder).sort(), ['large.obj', 'neutral.obj', 'tiny.obj', 'up.obj', 'zero.obj']);
 });
 
 test('the program makes, reads and replaces files of the machine', () => {
