@@ -8,8 +8,8 @@ namespace sweepface {
 
 struct Obstacles::Scene {
   struct Close {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    void operator()(RTCDevice opened) const { rtcReleaseDevice(opened); }
+    void operator()(RTCScene made) const { rtcReleaseScene(made); }
   };
   std::unique_ptr<RTCDeviceTy, Close> device;
   std::unique_ptr<RTCSceneTy, Close> scene;

@@ -1,6 +1,7 @@
 #include "picture/triangle_tree.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <unsupported/Eigen/BVH>
 #include <vector>
 
