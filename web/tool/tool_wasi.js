@@ -249,9 +249,10 @@ export class Wasi {
       path_rename: (folder, path, length, ...to) => files.renameSync(at(folder, path, length), at(...to)),
       path_unlink_file: (...path) => files.unlinkSync(at(...path)),
     };
+    // Beyond 2 GiB addresses come as negative numbers.
     const answered = (call) => (...given) => {
       try {
-        call(...given);
+        call(...given.map((value) => typeof value === 'number' ? value >>> 0 : value));
         return 0;
       } catch (error) {
         if (error?.code === undefined) throw error;

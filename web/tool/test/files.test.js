@@ -6,6 +6,7 @@ import test from 'node:test';
 import {newFolder} from '../../test/native.js';
 import {MemoryFiles} from '../tool_memory.js';
 import {pathOf, place, wordOf} from '../tool_places.js';
+import {Wasi} from '../tool_wasi.js';
 
 const bytes = (text) => new TextEncoder().encode(text);
 const text = (given) => new TextDecoder().decode(given);
@@ -108,6 +109,19 @@ test('only what was written is returned, and what was given stays as it is', () 
 test('a file has a name', () => {
   for (const name of ['', '.', '/', 'a/..'])
     assert.throws(() => new MemoryFiles([[name, bytes('')]]), {name: 'TypeError', message: `'${name}' is no name of a file.`});
+});
+
+test('memory beyond 2 GiB is reached', async () => {
+  // Writes "hi" from an address of 0x90000010 to the output, and ends with how many bytes it was told were written.
+  const module = new WebAssembly.Module(Buffer.from(
+    'AGFzbQEAAAABEANgBH9/f38Bf2ABfwBgAAACRgIWd2FzaV9zbmFwc2hvdF9wcmV2aWV3MQhmZF93cml0ZQAAFndhc2lfc25hcHNo' +
+    'b3RfcHJldmlldzEJcHJvY19leGl0AAEDAgECBQUBAMC4AgcTAgZtZW1vcnkCAAZfc3RhcnQAAgpJAUcAQYCAgIB5QZCAgIB5NgIA' +
+    'QYSAgIB5QQI2AgBBkICAgHlB6NIBNgIAQQFBgICAgHlBAUGIgICAeRAAGkGIgICAeSgCABABCw==', 'base64'));
+  let output = '';
+  const stream = {isTerminal: false, write: (part) => output += text(part)};
+  const wasi = new Wasi({args: [], env: {}, files: new MemoryFiles([]), output: stream, errors: stream});
+  assert.equal(await wasi.run(module), 2);
+  assert.equal(output, 'hi');
 });
 
 test('paths of Windows begin with a slash inside', () => {
