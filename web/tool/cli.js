@@ -7,14 +7,18 @@ import {isMainThread, parentPort, Worker} from 'node:worker_threads';
 import {currentFolder, place, wordOf} from './tool_places.js';
 import {Wasi} from './tool_wasi.js';
 
-const INTERRUPTED = 130;
+const INTERRUPTED = 130, PIPE_CLOSED = 141;  // as shells tell them
 
-/** Writes all bytes, also to a pipe that is full for a moment. */
+/** Writes all bytes, also to a pipe that is full for a moment. Where nobody reads any more, the work ends silently. */
 function writeAll(stream, bytes) {
   for (let begin = 0; begin < bytes.length;) {
     try {
       begin += fs.writeSync(stream, bytes, begin);
     } catch (error) {
+      if (error.code === 'EPIPE') {
+        parentPort.postMessage({code: PIPE_CLOSED});
+        process.exit();
+      }
       if (error.code !== 'EAGAIN') throw error;
       Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, 5);
     }
@@ -78,12 +82,13 @@ function supervise() {
     else end(message.code);
   });
   worker.on('error', ({message}) => end(1, `The tool failed: ${message}.`));
-  worker.on('exit', () => end(1, 'The tool failed: its thread ended.'));
-  const stop = async () => {
-    end(INTERRUPTED, 'Interrupted; nothing was written.');
-    await worker.terminate();
+  worker.on('exit', () => {
     for (const path of begun) fs.rmSync(path, {force: true});
-    process.exit();
+    end(1, 'The tool failed: its thread ended.');
+  });
+  const stop = () => {
+    end(INTERRUPTED, 'Interrupted; nothing was written.');
+    worker.terminate();
   };
   for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) process.once(signal, stop);
 }

@@ -173,6 +173,8 @@ test('pipes are read and written', () => {
   assert.match(shell('cat a.sweep | sweepface info /dev/stdin').toString(), /targets\s+1: up/);
   shell('sweepface edit a.sweep --ribbon 0 --eta 2 -q -o /dev/stdout | cat > piped.sweep');
   assert.equal(run(folder, 'check', 'piped.sweep').status, 0);
+  const unread = shell('sweepface info a.sweep 2> errors | (exec <&-; sleep 2); echo ${PIPESTATUS[0]}; cat errors');
+  assert.equal(unread.toString(), '141\n', 'as a native program that the signal of a closed pipe ends');
 });
 
 test('an interrupt ends the work and leaves nothing', async () => {
