@@ -87,7 +87,7 @@ function supervise() {
     end(1, 'The tool failed: its thread ended.');
   });
   const stop = () => {
-    end(INTERRUPTED, 'Interrupted; nothing was written.');
+    end(INTERRUPTED, 'Interrupted; no unfinished file is left.');
     worker.terminate();
   };
   for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) process.once(signal, stop);

@@ -190,7 +190,7 @@ test('an interrupt ends the work and leaves nothing', async () => {
   }
   child.kill('SIGINT');
   assert.equal(await ended, 130);
-  assert.equal(stderr, 'sweepface: Interrupted; nothing was written.\n');
+  assert.equal(stderr, 'sweepface: Interrupted; no unfinished file is left.\n');
   assert.deepEqual(fs.readdirSync(folder), ['sample.sweep']);
 });
 
