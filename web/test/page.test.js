@@ -327,7 +327,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
                                 ['button', 'Relax'], ['combobox', 'Detail'], ['checkbox', 'Lines'],
                                 ['searchbox', 'Filter expressions']])
       assert.equal(await page.getByRole(role, {name}).count(), 1, role);
-    await page.getByLabel('Open').focus();  // as keyboard users do
+    await page.getByLabel('Open', {exact: true}).focus();  // as keyboard users do
     assert.equal(await page.evaluate(() => document.activeElement.id), 'file');
     await page.locator('#message[role="status"]:not(.error)').waitFor({state: 'attached'});
     assert.equal(await page.locator('#message').evaluate((message) => getComputedStyle(message).display), 'block');
