@@ -10,7 +10,8 @@ import {newFolder, tool as native} from '../../test/native.js';
 
 const models = process.env.SWEEPFACE_MODELS ?? fileURLToPath(new URL('../../../build/release/sample', import.meta.url));
 const glb = fs.readFileSync(join(models, 'sample.glb'));
-const visit = {files: {}, viewport: {width: 1000, height: 700}};
+const noSample = {'sample.sweep': (response) => response.writeHead(404).end()};
+const visit = {files: noSample, viewport: {width: 1000, height: 700}};
 
 test('a model becomes a face that can be played and saved', {skip, timeout: 300_000}, () =>
   withPage('index.html', visit, async (page, complaints) => {
