@@ -39,7 +39,7 @@ async function show(source, name, keepView = false) {
     stand(next.mover, mesh && keepView ? mesh.face.weights : {});
     remove();
     shown = mine;
-    stopConverting();
+    if (mine === asked) stopConverting();
     file = Object.assign(own, {source: buffer, before: undefined});
     model = next;
     mesh = model.mover;

@@ -14,7 +14,7 @@ async function theModule(name) {
 
 let working;  // what ends the conversion under way
 
-/** Ends the conversion under way, as another face is shown. */
+/** Ends the conversion under way, as a face is shown that was asked for later. */
 export function stopConverting() {
   working?.abort();
 }

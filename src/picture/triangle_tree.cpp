@@ -76,7 +76,6 @@ TriangleTree::TriangleTree(std::span<const Vec3> positions,
   boxes_->tree.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
 }
 
-TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree::~TriangleTree() = default;
 
 bool TriangleTree::blocks(const Vec3& origin, const Vec3& direction, double near,

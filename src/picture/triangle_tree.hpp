@@ -12,7 +12,6 @@ namespace sweepface {
 class TriangleTree {
  public:
   TriangleTree(std::span<const Vec3> positions, std::span<const std::array<Index, 3>> triangles);
-  TriangleTree(TriangleTree&&) noexcept;
   ~TriangleTree();
 
   /// Whether a triangle lies between `near` and `far` along a unit direction.

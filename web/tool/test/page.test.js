@@ -43,3 +43,21 @@ test('a model becomes a face that can be played and saved', {skip, timeout: 300_
     assert.ok(!await page.locator('#save').isVisible(), 'it is saved already');
     assert.deepEqual(complaints.filter((complaint) => !complaint.includes('404')), [], 'but that there is no sample.sweep');
   }));
+
+test('a model goes on being converted while a file that was asked for before appears', {skip, timeout: 300_000}, () => {
+  const folder = newFolder(), small = join(folder, 'small.sweep');
+  execFileSync(native, ['convert', join(models, 'sample.glb'), '-o', small, '--tolerance', '1', '-q']);
+  let answer;
+  const files = {'sample.sweep': (response) => answer = () => response.end(fs.readFileSync(small))};
+  return withPage('index.html', {...visit, files}, async (page, complaints) => {
+    await page.waitForSelector('#file', {state: 'attached'});
+    await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Loading'));
+    await page.waitForTimeout(1000);  // until the page listens
+    await page.locator('#file').setInputFiles({name: 'late.glb', mimeType: 'model/gltf-binary', buffer: glb});
+    await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Converting'));
+    answer();
+    for (const name of ['sample.sweep', 'late.glb'])
+      await page.waitForFunction((name) => document.title.startsWith(name), name, {timeout: 200_000});
+    assert.deepEqual(complaints, []);
+  });
+});
