@@ -12,6 +12,10 @@
 #ifdef _WIN32
 #include "windows/console.hpp"
 #endif
+#ifdef __GLIBC__
+#include <limits>
+#include <malloc.h>
+#endif
 #ifdef __wasi__
 #include <cstdlib>
 #include <tuple>
@@ -90,6 +94,12 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
 #ifdef _WIN32
   const sweepface::cli::Console console;
+#endif
+#ifdef __GLIBC__
+  // Fitting needs the same large matrices again and again. Where they are given back in between,
+  // clearing their pages takes a fifth of the time.
+  mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif
 #ifdef __wasi__
   // A module is always started in the root folder.

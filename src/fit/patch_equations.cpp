@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/inner_product.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -188,8 +190,8 @@ class PatchAssembler {
       if (r < valued) values.row(r) = s * rows_[r].value;
     }
     e.poses = DistinctPoses(values);
-    const Dense local = basis.transpose() * basis;
-    const PoseMatrix localRhs = basis.topRows(valued).transpose() * e.poses.of(values);
+    const Dense local = innerProduct(basis, basis);
+    const PoseMatrix localRhs = innerProduct(basis.topRows(valued), e.poses.of(values));
     e.matrix.noalias() = spread.transpose() * (local * spread);
     e.rhs.noalias() = spread.transpose() * localRhs;
     return e;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "fit/inner_product.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -19,7 +20,7 @@ class PatchForm {
       : surface_(&draft.surface), grid_(&draft.patches[patch]), patch_(patch) {
     const GridMesh& mesh = layout.mesh();
     const PoseMatrix q = patchVectors(draft, patch, settled);
-    gram_ = q * q.transpose();
+    gram_ = innerProduct(q.transpose(), q.transpose());
     for (Index v : grid_->vertices) {
       const auto y = data.points.row(mesh.point[v]);
       weight_.push_back(data.weight[mesh.point[v]]);

@@ -65,6 +65,31 @@ Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
   return solution;
 }
 
+/// Adds up the right-hand sides of patches for the unknowns in [first, end), in the patches' order.
+void addRows(const std::vector<PatchEquations>& batch, Index first, Index end, PoseMatrix& rhs) {
+  const auto poses = static_cast<Index>(rhs.cols() / 3);
+  for (const PatchEquations& e : batch)
+    for (std::size_t a = 0; a < e.unknowns.size(); ++a) {
+      if (e.unknowns[a] < first || e.unknowns[a] >= end) continue;
+      for (Index k = 0; k < poses; ++k)
+        rhs.row(e.unknowns[a]).segment<3>(3 * k) +=
+            e.rhs.row(static_cast<Index>(a)).segment<3>(e.poses.column(k));
+    }
+}
+
+/// The vectors that are derived, in lists: none depends on another of its list or on one of a later
+/// list.
+std::vector<std::vector<Index>> derivedInTurn(const Surface& surface) {
+  std::vector<std::vector<Index>> lists;
+  std::vector<std::size_t> turn(surface.vectorCount(), 0);  // 0: stored
+  for (Index v = surface.storedCount(); v < surface.vectorCount(); ++v) {
+    for (const Term& t : surface.derivation(v)) turn[v] = std::max(turn[v], turn[t.vector]);
+    if (++turn[v] > lists.size()) lists.emplace_back();
+    lists[turn[v] - 1].push_back(v);
+  }
+  return lists;
+}
+
 }  // namespace
 
 Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceData& data) {
@@ -75,22 +100,21 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
   std::vector<Eigen::Triplet<double>> entries;
   // In batches: the patches' equations are large, and adding them up in order keeps the bytes the
   // same for any number of threads.
-  constexpr Index kBatch = 64;
+  constexpr Index kBatch = 64, kShares = 16;
   for (Index first = 0; first < draft.surface.patchCount(); first += kBatch) {
     const Index count = std::min(kBatch, draft.surface.patchCount() - first);
     std::vector<PatchEquations> batch(count);
     parallelFor(Index{0}, count, [&](Index k) {
       batch[k] = patchEquations(layout, draft, data, first + k, owner, expanded);
     });
+    parallelFor(Index{0}, kShares, [&](Index share) {
+      addRows(batch, share * unknowns / kShares, (share + 1) * unknowns / kShares, rhs);
+    });
     for (const PatchEquations& e : batch)
-      for (std::size_t a = 0; a < e.unknowns.size(); ++a) {
-        for (Index k = 0; k < data.poses; ++k)
-          rhs.row(e.unknowns[a]).segment<3>(3 * k) +=
-              e.rhs.row(static_cast<Index>(a)).segment<3>(e.poses.column(k));
+      for (std::size_t a = 0; a < e.unknowns.size(); ++a)
         for (std::size_t b = 0; b <= a; ++b)
           entries.emplace_back(e.unknowns[a], e.unknowns[b],
                                e.matrix(static_cast<Index>(a), static_cast<Index>(b)));
-      }
   }
   // Unknowns that move nothing become 0: second derivatives where two patches meet back to back.
   for (Index k = 0; k < unknowns; ++k) entries.emplace_back(k, k, 0);
@@ -101,11 +125,18 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
 
 PoseMatrix settleAll(const Surface& surface, const Solution& solution) {
   PoseMatrix all(surface.vectorCount(), solution.cols());
-  all.topRows(solution.rows()) = solution;
-  for (Index v = surface.storedCount(); v < surface.vectorCount(); ++v) {
-    all.row(v).setZero();
-    for (const Term& t : surface.derivation(v)) all.row(v) += t.factor * all.row(t.vector);
-  }
+  parallelRanges(solution.rows(), [&](Eigen::Index first, Eigen::Index end) {
+    all.middleRows(first, end - first) = solution.middleRows(first, end - first);
+  });
+  for (const std::vector<Index>& independent : derivedInTurn(surface))
+    parallelRanges(independent.size(), [&](std::size_t first, std::size_t end) {
+      for (std::size_t k = first; k < end; ++k) {
+        auto row = all.row(independent[k]);
+        row.setZero();
+        for (const Term& t : surface.derivation(independent[k]))
+          row += t.factor * all.row(t.vector);
+      }
+    });
   return all;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/inner_product.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -38,12 +40,12 @@ class PatchSplitter {
       const double t = 2.0 * i / n - 1;
       basis.row(i) << 1, t, t * t;
     }
-    const auto normal = (basis.transpose() * basis).ldlt();
+    const auto normal = innerProduct(basis, basis).ldlt();
     double worst = 0;
     PoseMatrix values(n + 1, data_.points.cols());
     for (Index line = 0; line <= lines; ++line) {
       for (Index i = 0; i <= n; ++i) values.row(i) = data_.points.row(pointAt(alongU, i, line));
-      const PoseMatrix rest = values - basis * normal.solve(basis.transpose() * values);
+      const PoseMatrix rest = values - basis * normal.solve(innerProduct(basis, values));
       for (Index i = 0; i <= n; ++i) {
         const double scale = std::sqrt(data_.weight[pointAt(alongU, i, line)]);
         for (Index k = 0; k < data_.poses; ++k)

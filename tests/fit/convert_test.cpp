@@ -6,6 +6,7 @@
 #include "sweepface/fit.hpp"
 #include "sweepface/measure.hpp"
 
+#include "cache_sizes.hpp"
 #include "faces.hpp"
 
 namespace sweepface {
@@ -158,6 +159,21 @@ TEST_P(Units, doNotMatter) {
     EXPECT_EQ(conversion->rig.surface.patchCount(),
               convert(everyFace()[k].rig)->rig.surface.patchCount());
   }
+}
+
+TEST(Convert, givesTheSameBytesOnProcessorsWithOtherCaches) {
+  const auto place = [](double x, double y) { return onHill(x / 4, y / 4); };
+  const MeshRig source = withTargets(grid(40, 32, place), 3);
+  ConvertOptions options;
+  options.tolerance = 0.01;
+  std::vector<std::string> bytes;
+  for (const std::ptrdiff_t first : {16 << 10, 128 << 10}) {
+    const CacheSizes sizes(first, 16 * first, 64 * first);
+    const auto conversion = convert(source, options);
+    ASSERT_TRUE(conversion) << conversion.error().message;
+    bytes.push_back(encode(conversion->rig));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
 }
 
 TEST(Convert, meetsItsToleranceFarFromTheOrigin) {
