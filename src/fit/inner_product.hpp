@@ -9,7 +9,7 @@ namespace sweepface {
 /// sums of many rows are rounded differently on other processors. Here all of them add up alike.
 template <typename A, typename B>
 auto innerProduct(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
-  constexpr Eigen::Index kRows = 120;  // which fit into any
+  constexpr Eigen::Index kRows = 120;  // so few that any cache has room for them
   Eigen::Matrix<double, A::ColsAtCompileTime, B::ColsAtCompileTime, Eigen::RowMajor> sum;
   sum.setZero(a.cols(), b.cols());
   for (Eigen::Index row = 0; row < a.rows(); row += kRows) {
