@@ -118,7 +118,7 @@ class PosePacker {
     PoseTask task = task_;
     task.errors = poses_.errors(pose_, vectors);
     task.slopes = poses_.slopes(pose_, vectors);
-    quantisePose(poses_.lattice(), poses_.columns(), std::move(task), q);
+    quantisePose(poses_.lattice(), poses_.columns(), std::move(task), q, goesOn_);
     return verticesBeyond(poses_.tolerance(), q);
   }
 

@@ -23,14 +23,16 @@ class PoseQuantiser {
   using Four = PoseCost::Four;
 
  public:
-  PoseQuantiser(const Lattice& lattice, const Columns& columns, PoseTask task, Coefficients& q)
+  PoseQuantiser(const Lattice& lattice, const Columns& columns, PoseTask task, Coefficients& q,
+                const std::function<bool()>& goesOn)
       : h_(lattice.hierarchy()),
         steps_(h_.prediction().steps),
         columns_(columns),
         axis_(lattice.axis()),
         task_(std::move(task)),
         errors_(columns, task_),
-        q_(q) {
+        q_(q),
+        goesOn_(goesOn) {
     siteOf_.resize(q.size());
     for (const Prediction::Step& step : steps_) siteOf_[step.vector] = step.site;
     count();
@@ -51,7 +53,7 @@ class PoseQuantiser {
   void search(double dearest) {
     constexpr int kCooling = 6, kSweeps = 8;
     touched_.assign(vertexCount(), -1);
-    for (sweep_ = 0; sweep_ < kSweeps; ++sweep_) {
+    for (sweep_ = 0; sweep_ < kSweeps && goesOn_(); ++sweep_) {
       price_ = dearest + (1 - dearest) * std::min(1.0, static_cast<double>(sweep_) / kCooling);
       Index changed = 0;
       findWanted();
@@ -77,7 +79,7 @@ class PoseQuantiser {
     errors_.press(100);
     constexpr int kRounds = 40;
     Index most = vertexCount() / 50;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kRounds && goesOn_(); ++round) {
       Index bad = 0, changed = 0;
       for (Index u = 0; u < vertexCount(); ++u) bad += errors_.square(u) > 1;
       if (bad == 0 || bad > most) return;
@@ -314,6 +316,7 @@ class PoseQuantiser {
   PoseTask task_;
   PoseCost errors_;
   Coefficients& q_;
+  const std::function<bool()>& goesOn_;
   std::vector<Index> siteOf_;           // [S]
   std::vector<int> inSite_, inVector_;  // coefficients that are not as expected
   std::vector<char> wanted_;            // [S]
@@ -324,8 +327,9 @@ class PoseQuantiser {
 
 }  // namespace
 
-void quantisePose(const Lattice& lattice, const Columns& columns, PoseTask task, Coefficients& q) {
-  PoseQuantiser(lattice, columns, std::move(task), q).run();
+void quantisePose(const Lattice& lattice, const Columns& columns, PoseTask task, Coefficients& q,
+                  const std::function<bool()>& goesOn) {
+  PoseQuantiser(lattice, columns, std::move(task), q, goesOn).run();
 }
 
 }  // namespace sweepface

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "codec/lattice.hpp"
@@ -22,8 +23,9 @@ struct PoseTask {
 
 /// Looks for coefficients that cost few bits while vertex errors stay within their bounds:
 /// coordinate descent on bits + penalty(errors), one coefficient after the other, from those
-/// given. The caller must check that the errors did stay within their bounds.
+/// given. The caller must check that the errors did stay within their bounds. Ends early if
+/// `goesOn`, which is polled between sweeps, returns false.
 void quantisePose(const codec::Lattice& lattice, const Columns& columns, PoseTask task,
-                  codec::Coefficients& q);
+                  codec::Coefficients& q, const std::function<bool()>& goesOn);
 
 }  // namespace sweepface

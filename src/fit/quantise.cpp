@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "fit/check_source.hpp"
@@ -18,6 +19,8 @@ namespace {
 constexpr double kTargetStep = 1;
 // The neutral spends this share of the tolerance, to leave room for the other poses.
 constexpr double kNeutralShare = 0.5;
+// The neutral's usual share of the time.
+constexpr double kNeutralTime = 0.1;
 // The share of the tolerance that the search keeps to: it computes in single precision.
 constexpr double kBound = 0.995;
 
@@ -46,7 +49,11 @@ class Quantiser {
         poses_(rig, source, std::move(goals), latticeFor(rig, aims), aims.tolerance, aims.angle) {}
 
   Result<void> run() {
-    const bool met = packPose(poses_, 0, neutralBounds(), [this] { return goesOn(); });
+    const bool met = packPose(poses_, 0, neutralBounds(), [this] {
+      ++polled_;
+      return goesOn();
+    });
+    isNeutralDone_ = true;
     if (!goesOn()) return fail("packing was interrupted");
     if (!met) return failed("the neutral");
     poses_.learnNeutral();
@@ -86,7 +93,15 @@ class Quantiser {
     return {};
   }
 
-  bool goesOn() const { return proceed_(static_cast<double>(begun_) / poses_.count()); }
+  bool goesOn() const {
+    return proceed_(std::lerp(kNeutralTime * neutralDone(), 1, targetsDone()));
+  }
+  double targetsDone() const { return static_cast<double>(begun_) / poses_.count(); }
+  // Nobody knows how many sweeps it takes: the share grows ever more slowly.
+  double neutralDone() const {
+    constexpr double kHalf = 20;  // of it after so many
+    return isNeutralDone_ ? 1 : polled_ / (polled_ + kHalf);
+  }
 
   std::unexpected<Error> failed(const std::string& pose) const {
     // Files count steps from the origin; those of roots are halved.
@@ -108,6 +123,8 @@ class Quantiser {
   double tolerance_;
   const std::function<bool(double)>& proceed_;
   PackedPoses poses_;
+  int polled_ = 0;  // while the neutral is packed
+  bool isNeutralDone_ = false;
   std::atomic<Index> begun_ = 0;  // targets
 };
 

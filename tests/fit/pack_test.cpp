@@ -136,6 +136,23 @@ TEST(Pack, isTheSameOnOneThreadAsOnMany) {
   EXPECT_EQ(bytes[0], bytes[1]);
 }
 
+TEST(Pack, tellsHowItGetsOnWithTheNeutralAndStopsThere) {
+  Rig rig = converted(withTargets(torus()), 0.01);
+  std::vector<double> heard;
+  std::atomic<bool> cancel = false;
+  const PackOptions options{.progress =
+                                [&](auto, double done) {
+                                  if (cancel) return;
+                                  heard.push_back(done);
+                                  cancel = done > 0.03;
+                                },
+                            .cancel = &cancel};
+  ASSERT_FALSE(pack(rig, options));
+  EXPECT_GT(heard.size(), 5u);
+  EXPECT_LT(heard.back(), 0.1) << "the neutral's share";
+  EXPECT_TRUE(std::ranges::is_sorted(heard)) << ::testing::PrintToString(heard);
+}
+
 TEST(Pack, leavesTheFaceAsItWasWhereItFails) {
   Rig rig = converted(withTargets(torus()), 0.01);
   const std::string before = encode(rig);
