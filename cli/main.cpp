@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
 #endif
 #ifdef __GLIBC__
   // Fitting needs the same large matrices again and again. Where they are given back in between,
-  // clearing their pages takes a fifth of the time.
+  // clearing their pages takes up to a seventh of the time.
   mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif

@@ -50,10 +50,10 @@ class Quantiser {
 
   Result<void> run() {
     const bool met = packPose(poses_, 0, neutralBounds(), [this] {
-      ++polled_;
+      neutralLeft_ *= 0.97;  // nobody knows how many sweeps it takes
       return goesOn();
     });
-    isNeutralDone_ = true;
+    neutralLeft_ = 0;
     if (!goesOn()) return fail("packing was interrupted");
     if (!met) return failed("the neutral");
     poses_.learnNeutral();
@@ -94,13 +94,8 @@ class Quantiser {
   }
 
   bool goesOn() const {
-    return proceed_(std::lerp(kNeutralTime * neutralDone(), 1, targetsDone()));
-  }
-  double targetsDone() const { return static_cast<double>(begun_) / poses_.count(); }
-  // Nobody knows how many sweeps it takes: the share grows ever more slowly.
-  double neutralDone() const {
-    constexpr double kHalf = 20;  // of it after so many
-    return isNeutralDone_ ? 1 : polled_ / (polled_ + kHalf);
+    const double targets = static_cast<double>(begun_) / poses_.count();
+    return proceed_(std::lerp(kNeutralTime * (1 - neutralLeft_), 1, targets));
   }
 
   std::unexpected<Error> failed(const std::string& pose) const {
@@ -123,8 +118,7 @@ class Quantiser {
   double tolerance_;
   const std::function<bool(double)>& proceed_;
   PackedPoses poses_;
-  int polled_ = 0;  // while the neutral is packed
-  bool isNeutralDone_ = false;
+  double neutralLeft_ = 1;        // a share
   std::atomic<Index> begun_ = 0;  // targets
 };
 

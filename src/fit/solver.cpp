@@ -99,7 +99,7 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
   PoseMatrix rhs = PoseMatrix::Zero(unknowns, 3 * data.poses);
   std::vector<Eigen::Triplet<double>> entries;
   // In batches: the patches' equations are large, and adding them up in order keeps the bytes the
-  // same for any number of threads.
+  // same for any number of threads. Each thread adds up shares of the unknowns.
   constexpr Index kBatch = 64, kShares = 16;
   for (Index first = 0; first < draft.surface.patchCount(); first += kBatch) {
     const Index count = std::min(kBatch, draft.surface.patchCount() - first);
